@@ -1,6 +1,6 @@
 #pragma once
 
-// Annotation documents to measure with: those of the shared data, and made ones.
+// Annotation documents for measurements: those of the shared data, and generated ones.
 
 #include <fmt/format.h>
 
@@ -22,7 +22,7 @@ inline std::size_t annotations_in(const AnnotationDocument& document) {
   return count;
 }
 
-/// The documents of the shared data that hold something; a made one where there are none.
+/// The non-empty documents of the shared data; an empty one to generate into if there are none.
 inline std::vector<AnnotationDocument> documents() {
   std::vector<AnnotationDocument> found;
   const std::filesystem::path folder = std::filesystem::path(SIGNWEAVE_SHARED_DATA) / "eaf";
@@ -35,19 +35,20 @@ inline std::vector<AnnotationDocument> documents() {
         document.properties.clear();
         const std::size_t count = annotations_in(document);
         if (count > 20 && count < 20'000) found.push_back(std::move(document));
-      } catch (const Error&) {  // some of them are broken on purpose
+      } catch (const Error&) {  // some of them are deliberately broken
       }
     }
   }
   std::ranges::sort(found, {}, annotations_in);
   if (found.empty()) {
-    fmt::print(stderr, "no shared data: made tiers alone\n");
+    fmt::print(stderr, "no shared data: only generated tiers\n");
     found.emplace_back();
   }
   return found;
 }
 
-/// Adds a tier of so many signs, one of their phases below it, and one of mouthings of a third of them.
+/// Adds a tier of `signs_of_document` signs, a tier of their phases below it, and a tier of mouthings for a third of
+/// them.
 inline void add_signs(AnnotationDocument& document, std::mt19937& random, std::size_t glosses, int signs_of_document) {
   Tier signs;
   signs.id = "BenchGloss";

@@ -1,5 +1,5 @@
-// Compact packets: how small they are, how far off at most, how fast they are written, and what it costs to unpack two
-// neighbouring frames and interpolate between them, against a bare nlerp of frames that lie in memory.
+// Compact packets: their size, their largest error, how fast they are written, and what it costs to unpack two
+// neighbouring frames and interpolate between them, against a plain nlerp of frames in memory.
 //
 // Prints lines "name value unit yardstick ratio goal". Motions: two minutes of the demo corpus, and the files with
 // fingers under ../shared/data/bvh (others without a goal). --quick: less of the demo, fewer rounds.
@@ -21,7 +21,7 @@ using namespace signweave;
 namespace fs = std::filesystem;
 
 constexpr float kTolerance = 1e-4f;   // metres
-constexpr std::size_t kFingers = 40;  // a skeleton with so many joints has fingers
+constexpr std::size_t kFingers = 40;  // a skeleton with at least this many joints has fingers
 constexpr float kMillimetres = 1000.0f;
 bool quick = false;
 
@@ -36,12 +36,12 @@ Motion without_tracks(Motion motion) {
   return motion;
 }
 
-/// A motion stored in a database of its own.
+/// A motion stored in its own database.
 struct Stored {
   bench::Folder folder{"compact"};
   std::unique_ptr<kv::KvStore> store;
   motion_db::StoredMotion stored;
-  double seconds = 0;  ///< of one core, to quantise and put
+  double seconds = 0;  ///< on one core, to quantise and put
 
   Stored(const Motion& motion, AccessMode mode, float tolerance) {
     kv::create(folder.path() / "db", kv::engines().front());
@@ -52,7 +52,7 @@ struct Stored {
     motion_db::put(*store, stored, quantised);
     seconds = static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
   }
-  /// Everything, and what it took.
+  /// Stores the whole motion and measures the time.
   Motion read(motion_db::ReadCost& cost) const {
     const auto snapshot = store->read();
     const auto skeleton = motion_db::read_skeleton(*snapshot, stored);
@@ -72,7 +72,7 @@ std::uint64_t measure_size(const Named& named, AccessMode::Kind kind, float tole
   const Motion back = stored.read(cost);
   const double off = motion_db::largest_distance(motion, back);
   if (!(off <= static_cast<double>(tolerance))) {
-    throw std::runtime_error(fmt::format("{}: {} m off, {} were promised", named.name, off, tolerance));
+    throw std::runtime_error(fmt::format("{}: error of {} m, the limit is {}", named.name, off, tolerance));
   }
   const std::string name =
       fmt::format("{}/{:.4g}mm/{}", named.name, tolerance * kMillimetres, to_string(stored.stored.mode));
@@ -88,7 +88,7 @@ std::uint64_t measure_size(const Named& named, AccessMode::Kind kind, float tole
   return cost.bytes;
 }
 
-/// The least that interpolation is: normalised linear, over quaternions as a Motion has them.
+/// The least that an interpolation costs: normalised linear, over quaternions as stored in a Motion.
 __attribute__((noinline)) void nlerp(const float* __restrict a, const float* __restrict b, float t,
                                      float* __restrict out, std::size_t count) {
   for (std::size_t i = 0; i < 4 * count; i += 4) {
@@ -128,7 +128,7 @@ void measure_speed(const Named& named) {
   const MutablePoses single = result.poses({0, 1});
   const auto floats = [](auto rotations) { return rotations.front().coeffs().data(); };
 
-  // Random neighbours that lie in one packet.
+  // Random pairs of neighbours within one packet.
   std::mt19937 random(1);
   std::vector<std::int64_t> starts;
   while (starts.size() < 1000) {
@@ -141,7 +141,7 @@ void measure_speed(const Named& named) {
   };
   unpack_at(starts[0], 2, both);
   if (std::memcmp(both.rotations.data(), motion.pose(starts[0]).rotations.data(), 16 * joints) != 0) {
-    throw std::runtime_error(named.name + ": what was unpacked differs");
+    throw std::runtime_error(named.name + ": unpacked frames differ");
   }
   const int rounds = quick ? 11 : 101;
   const double per_joint = 1e9 / static_cast<double>(joints * starts.size());
@@ -162,7 +162,7 @@ void measure_speed(const Named& named) {
         bench::keep(single.rotations.front());
       }));
   bench::print("unpack_two_and_nlerp/" + named.name, per_joint, "ns/joint", compared, "<= 3");
-  // As many frames one after another.
+  // The same number of frames one after another.
   std::vector<std::int64_t> sorted = starts;
   std::sort(sorted.begin(), sorted.end());
   const auto order = bench::compare(rounds, all([&](std::int64_t frame) { unpack_at(frame, 1, single); }), [&] {
@@ -187,7 +187,7 @@ void measure_speed(const Named& named) {
                1e9 / static_cast<double>(joints) / static_cast<double>(many), "ns/joint", bulk, "-");
 }
 
-/// Two minutes of the demo corpus; of these ten seconds where it must be quick.
+/// Two minutes of the demo corpus; with --quick ten seconds of it.
 std::vector<Named> demo_motions() {
   std::vector<Named> all;
   for (const demo::Script& script : demo::corpus_scripts(2.0)) {
@@ -229,10 +229,10 @@ void run() {
   for (const fs::path& file : files) {
     const std::string folder = file.parent_path().filename().string();
     std::string name = folder + "/" + file.stem().string();
-    std::ranges::replace(name, ' ', '_');  // blanks part the fields of a line
+    std::ranges::replace(name, ' ', '_');  // fields of a line are separated by blanks
     const Named named{std::move(name), without_tracks(bvh::read(file).motion)};
     const bool fingers = named.motion.skeleton().joint_count() >= kFingers && named.motion.frame_count() > 1;
-    if (!fingers && folder == last) continue;  // of those without fingers one a folder
+    if (!fingers && folder == last) continue;  // of those without fingers, one per folder
     last = folder;
     const std::uint64_t bytes = measure_size(named, AccessMode::Kind::by_frame, kTolerance, "-");
     if (!fingers) continue;

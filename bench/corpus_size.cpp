@@ -1,7 +1,7 @@
-// What a synthesis costs in a large corpus beside a small one. The utterance is the same, and so are its tokens; the
-// large corpus holds a hundred times as many recordings beside them.
+// The cost of a synthesis in a large corpus against a small one. The utterance and its tokens are the same; the large
+// corpus holds a hundred times as many other recordings.
 //
-// Arguments: --quick takes 20 and 200 recordings in place of 100 and 10,000.
+// Arguments: --quick takes 20 and 200 recordings instead of 100 and 10,000.
 
 #include "bench/measure.h"
 #include "signweave/choose/synthesizer.h"
@@ -14,7 +14,7 @@ using namespace signweave;
 
 constexpr int kWithTokens = 10;  ///< recordings that have the glosses of the utterance
 
-/// Recordings of three seconds and seven signs each. What was learned is stored, as after an import.
+/// Recordings of three seconds and seven signs each. The learned data is stored, as after an import.
 void fill(const std::filesystem::path& folder, int recordings) {
   Database::create(folder, {});
   Database database(folder, kv::Access::read_write);

@@ -1,8 +1,8 @@
-// The paper's trade-off between the two storages of annotation documents (its section 4.1): what importing costs, and
-// what reading one annotation, one tier and all cost, and XPath, each with `node` beside `document`, in turns, on the
-// ELAN files of the shared data replicated and on one long made document. What must look at a whole document stands
-// beside a bare pugixml parse of the same bytes too. The answers of both are compared. `--quick`: a tenth of the long
-// one alone, and fewer rounds.
+// The paper's trade-off between the two storages of annotation documents (its section 4.1): the costs of importing, of
+// reading one annotation, one tier and everything, and of XPath, each with `node` against `document`, in turns, on the
+// ELAN files of the shared data replicated and on one long generated document. Operations that must read a whole
+// document are also compared with a plain pugixml parse of the same bytes. The answers of both are compared. `--quick`:
+// only a tenth of the long document, and fewer rounds.
 
 #include <cstring>
 #include <map>
@@ -77,7 +77,7 @@ struct Stored {
   std::unique_ptr<Database> database;
 };
 
-/// Puts all into a new database; seconds.
+/// Puts all documents into a new database; returns seconds.
 double load(const Corpus& corpus, const fs::path& folder, DocumentStorage storage, Stored& into) {
   into.database.reset();
   fs::remove_all(folder);
@@ -91,10 +91,10 @@ double load(const Corpus& corpus, const fs::path& folder, DocumentStorage storag
 }
 
 [[noreturn]] void differ(const std::string& what) {
-  throw std::runtime_error(what + ": the two storages answer differently");
+  throw std::runtime_error(what + ": the two storages give different answers");
 }
 
-/// Some of a corpus' annotations: recording and id.
+/// A sample of a corpus' annotations: recording and id.
 std::vector<std::pair<std::string, std::string>> some_annotations(const Corpus& corpus, std::size_t count) {
   std::vector<std::pair<std::string, std::string>> all;
   for (const Recording& recording : corpus.recordings) {
@@ -116,7 +116,8 @@ std::vector<xpath::Value> values_of(const Database& database, const std::string&
   return values;
 }
 
-/// One annotation of each question in turns with `document`; `node` is asked several times, since the clock is coarse.
+/// Single annotations, measured in turns with `document`; `node` is called several times per measurement, because the
+/// clock is coarse.
 template <typename Ask>
 void each_annotation(const std::string& name, const std::vector<std::pair<std::string, std::string>>& annotations,
                      const Stored& node, const Stored& document, const char* goal, Ask&& ask) {
@@ -159,7 +160,7 @@ void measure(const Corpus& corpus, const fs::path& folder, bool quick) {
              corpus.annotations, corpus.bytes);
   const int rounds = quick ? 3 : 5;
 
-  // Importing: the yardstick of both is what cannot be left out, a parse.
+  // Importing: the yardstick of both is the part that cannot be avoided, a parse.
   Stored node, document;
   std::vector<double> loads[2], parses, ratios;
   const auto parse_all = [&] {
@@ -204,7 +205,7 @@ void measure(const Corpus& corpus, const fs::path& folder, bool quick) {
                     return values_of(database, expressions.at({recording, id}), recording);
                   });
 
-  // Everything: the same for both but for putting the pieces together. Beside a parse of the same bytes.
+  // Everything: the same for both except for joining the pieces. Also against a parse of the same bytes.
   const auto everything = [&](const std::string& what, auto&& ask) {
     if (ask(*node.database) != ask(*document.database)) differ(name + "/" + what);
     std::vector<double> times[2], parse, both;

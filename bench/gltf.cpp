@@ -1,11 +1,10 @@
-// Reading glTF, against tinygltf's own parse of the same file, which takes it apart and copies its numbers but makes no
-// motion of them.
+// Reading glTF, against tinygltf's own parse of the same file, which splits it and copies its numbers but builds no
+// motion from them.
 //
 // Prints lines "name value unit yardstick ratio goal": medians of interleaved rounds.
 //   --quick        a small file, few rounds
-//   FILE           these files instead of the one that is made
-// What is read is compared with the numbers that tinygltf found, and anything else but the same ends the program
-// with 1.
+//   FILE           these files instead of the generated one
+// The result is compared with the numbers that tinygltf found; a difference ends the program with status 1.
 
 #include <malloc.h>
 #include <tiny_gltf.h>
@@ -26,7 +25,7 @@ namespace {
 using namespace signweave;
 namespace fs = std::filesystem;
 
-/// All joints turn and the root moves, each frame otherwise.
+/// All joints turn and the root moves, differently in each frame.
 Motion made_motion(std::int64_t frames, int joint_count) {
   std::vector<Joint> joints;
   for (int i = 0; i < joint_count; ++i) {
@@ -63,7 +62,7 @@ tinygltf::Model parsed(const fs::path& path) {
   return model;
 }
 
-/// The rotations that tinygltf found, key by key, against ours.
+/// Compares the rotations that tinygltf found with ours, key by key.
 void require_same(const tinygltf::Model& model, const Motion& motion) {
   for (const tinygltf::AnimationChannel& channel : model.animations.at(0).channels) {
     if (channel.target_path != "rotation") continue;
@@ -80,7 +79,7 @@ void require_same(const tinygltf::Model& model, const Motion& motion) {
       std::memcpy(theirs.data(), model.buffers[0].data.data() + view.byteOffset + accessor.byteOffset + 16 * key, 16);
       const Eigen::Vector4f ours = motion.pose(static_cast<std::int64_t>(key)).rotations[joint].coeffs();
       if (std::min((ours - theirs).norm(), (ours + theirs).norm()) < 1e-6f) continue;
-      throw std::runtime_error(fmt::format("{}: key {} is another rotation", node.name, key));
+      throw std::runtime_error(fmt::format("{}: key {} has a different rotation", node.name, key));
     }
   }
 }
@@ -96,7 +95,7 @@ void measure(const std::string& name, const fs::path& path, int rounds) {
 }  // namespace
 
 int main(int count, char** arguments) {
-  // As in bench/import.cpp: what is read is large, and page faults are not what is measured.
+  // As in bench/import.cpp: the results are large, and page faults must not be measured.
   ::mallopt(M_TRIM_THRESHOLD, 1 << 30);
   ::mallopt(M_MMAP_THRESHOLD, 1 << 30);
   try {
@@ -107,7 +106,7 @@ int main(int count, char** arguments) {
       if (word == "--quick") {
         quick = true;
       } else if (word.starts_with("--")) {
-        fmt::print(stderr, "gltf: no option '{}'; there is --quick\n", word);
+        fmt::print(stderr, "gltf: no option '{}'; the only one is --quick\n", word);
         return 2;
       } else {
         given = true;

@@ -1,12 +1,13 @@
-// Reading and writing files, against the least that such work can be: a bare scan of the same numbers with fast_float,
-// a bare loop of std::to_chars, a bare parse by pugixml; and against Assimp, which also reads BVH.
+// Reading and writing files, against the least that such work can cost: a plain scan of the same numbers with
+// fast_float, a plain loop of std::to_chars, a plain parse by pugixml; and against Assimp, which also reads BVH.
 //
-// Prints lines "name value unit yardstick ratio goal": medians of interleaved rounds. Of the files under ../shared/data
-// the median and the worst of each class, the worst one's name in the line's; with --each every file.
-//   --quick        small and made files alone, few rounds
+// Prints lines "name value unit yardstick ratio goal": medians of interleaved rounds. For the files under
+// ../shared/data the median and the worst of each class, with the name of the worst in the line's name; with --each
+// every file.
+//   --quick        only small and generated files, few rounds
 //   --only bvh     or eaf, or memory
 //   --data FOLDER  instead of ../shared/data
-// What is read is compared with what the yardstick read, and anything else but the same ends the program with 1.
+// The result is compared with what the yardstick read; a difference ends the program with status 1.
 
 #include <assimp/scene.h>
 #include <fast_float/fast_float.h>
@@ -62,7 +63,7 @@ std::string_view frames_of(std::string_view text) {
   return at == text.npos ? std::string_view() : text.substr(at);
 }
 
-/// The bare scan: every number of the frames into `numbers`, which must be large enough. Returns how many there were.
+/// The plain scan: every number of the frames into `numbers`, which must be large enough. Returns their count.
 std::size_t scan(std::string_view text, std::vector<double>& numbers) {
   text = frames_of(text);
   const char* at = text.data();
@@ -72,13 +73,13 @@ std::size_t scan(std::string_view text, std::vector<double>& numbers) {
     while (at != end && is_blank(*at)) ++at;
     if (at == end) return static_cast<std::size_t>(out - numbers.data());
     const auto [next, error] = fast_float::from_chars(at, end, *out);
-    if (error != std::errc()) throw std::runtime_error("the scan met what is no number");
+    if (error != std::errc()) throw std::runtime_error("the scan found something that is not a number");
     at = next;
     ++out;
   }
 }
 
-/// The same numbers by our reader: all that bvh::read does up to its channels.
+/// The same numbers read by our reader: all that bvh::read does up to its channels.
 std::size_t read_channels(const std::string& name, std::string_view text, std::vector<double>& numbers) {
   TextReader reader(name, text);
   std::vector<Notice> notices;
@@ -96,7 +97,7 @@ std::size_t read_channels(const std::string& name, std::string_view text, std::v
 
 // --- BVH: correctness ---
 
-/// The rotations of the file's first and last frame made from the scan's numbers, in the plainest way.
+/// Checks the rotations of the file's first and last frame, computed from the scan's numbers in the simplest manner.
 void check_rotations(const std::string& name, const bvh::File& file, const std::vector<double>& numbers) {
   const std::int64_t last = file.motion.frame_count() - 1;
   std::size_t columns = 0;
@@ -142,8 +143,8 @@ struct BvhTables {
   }
 };
 
-/// How often a round calls, and how many rounds there are. Rounds are short (well under a millisecond where the file
-/// allows), so that on a machine at work most of them pass undisturbed and the median is one of those.
+/// Calls per round, and number of rounds. Rounds are short (well under a millisecond if the file allows), so that on a
+/// busy machine most of them are undisturbed, including the median.
 struct Effort {
   int calls = 1;
   int rounds = 1;
@@ -153,7 +154,7 @@ Effort effort_for(std::size_t bytes, bool quick) {
   return {static_cast<int>(std::clamp<std::size_t>(kMegabyte / 5 / bytes, 1, 50)), bytes > 10 * kMegabyte ? 9 : 51};
 }
 
-/// The numbers of a written file, each with its count of decimals.
+/// The numbers of a written file, each with its number of decimals.
 struct Printed {
   std::vector<double> numbers;
   std::vector<int> decimals;
@@ -183,7 +184,7 @@ void measure_write(const std::string& name, const bvh::File& file, const Effort&
   const std::string written = bvh::write_text(file.motion, file.layout);
   const Printed printed = printed_in(written);
   std::string buffer(written.size() + 64, ' ');
-  // Line ends are blanks here; both print the same digits.
+  // Line ends are written as blanks here; both print the same digits.
   std::size_t used = 0;
   const auto fixed = [&] {
     char* at = buffer.data();
@@ -243,7 +244,7 @@ void measure_bvh(const BvhFile& from, bool quick, BvhTables& tables) {
   std::vector<double> scanned(text.size() / 2 + 1);
   std::vector<double> ours(scanned.size());
   const std::size_t count = scan(text, scanned);
-  if (read_channels(from.name, text, ours) != count) differ(from.name, "we read another count of numbers");
+  if (read_channels(from.name, text, ours) != count) differ(from.name, "we read a different number of values");
   for (std::size_t i = 0; i < count; ++i) {
     if (ours[i] != scanned[i])
       differ(from.name, fmt::format("number {} is {}, the scan says {}", i, ours[i], scanned[i]));
@@ -294,9 +295,9 @@ void measure_eaf(const fs::path& path, const std::string& name, bool quick, benc
                       effort.calls));
 }
 
-// --- made files ---
+// --- generated files ---
 
-/// `frames` frames of the demo's weather forecast, said again and again.
+/// `frames` frames of the demo's weather forecast, repeated.
 void write_long(const fs::path& path, const std::string& once, std::int64_t frames) {
   const std::size_t count_at = once.find("Frames: ") + 8;
   const std::size_t first = once.find('\n', once.find("Frame Time")) + 1;
@@ -322,7 +323,7 @@ std::vector<fs::path> files_in(const fs::path& folder, const char* extension) {
   return files;
 }
 
-/// As a word in a line of results.
+/// As one word in a line of results.
 std::string word_of(const fs::path& path, const fs::path& folder) {
   std::string name = path.lexically_relative(folder).string();
   std::replace(name.begin(), name.end(), ' ', '_');
@@ -335,7 +336,7 @@ void measure_shared(const Settings& settings) {
     return;
   }
   if (settings.wants("bvh")) {
-    // Files of a few frames are all HIERARCHY, of which the bare scan reads nothing: no goal for them.
+    // Files of a few frames consist mostly of HIERARCHY, of which the plain scan reads nothing: no goal for them.
     BvhTables tiny("under_10kB", "-", "-", "-", settings.each);
     BvhTables small("under_1MB", "<= 1.5", "<= 1.8", "<= 1.2", settings.each);
     BvhTables large("over_1MB", "<= 1.3", "<= 1.8", "<= 1.2", settings.each);
@@ -387,8 +388,8 @@ void run(const Settings& settings) {
 }  // namespace
 
 int main(int count, char** arguments) {
-  // What is read is large and made anew each time. Left alone, glibc gives its memory back to the system after each,
-  // and much of what we measured would be page faults.
+  // What is read is large and allocated again each time. By default, glibc returns its memory to the system after each
+  // read, and much of what is measured would be page faults.
   ::mallopt(M_TRIM_THRESHOLD, 1 << 28);
   ::mallopt(M_MMAP_THRESHOLD, 1 << 25);
   try {
@@ -408,11 +409,11 @@ int main(int count, char** arguments) {
           return 2;
         }
       } else if (word == "--import-memory" && i + 2 < count) {
-        ::mallopt(M_TRIM_THRESHOLD, 128 << 10);  // as any program has it
+        ::mallopt(M_TRIM_THRESHOLD, 128 << 10);  // as in any program
         ::mallopt(M_MMAP_THRESHOLD, 128 << 10);
         return bench::import_and_tell(arguments[i + 1], arguments[i + 2]);
       } else {
-        fmt::print(stderr, "import: no option '{}'; there are --each, --quick, --only and --data\n", word);
+        fmt::print(stderr, "import: no option '{}'; available: --each, --quick, --only and --data\n", word);
         return 2;
       }
     }

@@ -1,6 +1,6 @@
 #pragma once
 
-// What the thousandth recording costs to import beside the tenth.
+// The cost of importing the thousandth recording, against the tenth.
 
 #include <array>
 #include <filesystem>
@@ -15,13 +15,14 @@
 
 namespace signweave::bench {
 
-/// Files imported into one database, one at a time.
+/// Imports files into one database, one at a time.
 class Importing {
  public:
   enum class How {
-    open,  ///< into a database that stays open
-    anew,  ///< the database is opened for each
-    verb,  ///< likewise, and all is done that `signweave import` does at its end: tables merged, joins learned
+    open,      ///< into a database that stays open
+    reopened,  ///< the database is opened for each
+    verb,  ///< opened for each, and everything is done that `signweave import` does at its end: tables merged, joins
+           ///< learned
   };
   Importing(std::filesystem::path folder, const std::vector<std::filesystem::path>& files)
       : folder_(std::move(folder)), files_(files) {
@@ -62,12 +63,13 @@ inline double mean(const std::vector<double>& values) {
   return sum / static_cast<double>(values.size());
 }
 
-/// The recordings 5 to 15 of several databases in turns with as many around the thousandth of one, the same files.
+/// Imports recordings 5 to 15 of several databases, interleaved with as many around the thousandth of one, from the
+/// same files.
 inline void measure_growth(const std::vector<AnnotationDocument>& sources, const std::filesystem::path& folder,
                            bool quick) {
   const std::size_t many = quick ? 60 : 1000;
   constexpr std::size_t kFirst = 5;
-  constexpr std::size_t kWindow = 11;  // to the fifteenth
+  constexpr std::size_t kWindow = 11;  // up to the fifteenth
   const std::size_t batches = quick ? 1 : 10;
   std::vector<std::filesystem::path> files;
   std::mt19937 random(11);
@@ -79,14 +81,14 @@ inline void measure_growth(const std::vector<AnnotationDocument>& sources, const
   }
   using How = Importing::How;
   for (const auto& [how, name] :
-       {std::pair(How::open, "open"), std::pair(How::anew, "anew"), std::pair(How::verb, "verb")}) {
-    const std::filesystem::path place = folder / fmt::format("growth_{}", name);
-    Importing large(place, files);
-    // As many batches end after the thousandth as before.
+       {std::pair(How::open, "open"), std::pair(How::reopened, "anew"), std::pair(How::verb, "verb")}) {
+    const std::filesystem::path target = folder / fmt::format("growth_{}", name);
+    Importing large(target, files);
+    // As many batches end after the thousandth recording as before it.
     while (large.count() + batches * kWindow / 2 < many) large.next(How::open);
     std::vector<double> few, much, ratios;
     for (std::size_t batch = 0; batch < batches; ++batch) {
-      Importing small(place.string() + fmt::format("_{}", batch), files);
+      Importing small(target.string() + fmt::format("_{}", batch), files);
       while (small.count() + 1 < kFirst) small.next(how);
       while (small.count() % files.size() != large.count() % files.size()) large.next(how);
       for (std::size_t i = 0; i < kWindow; ++i) {
@@ -97,7 +99,7 @@ inline void measure_growth(const std::vector<AnnotationDocument>& sources, const
     }
     print(fmt::format("import_one/{}/{}th_to_10th", name, many), 1e3, "ms",
           Compared{median(much), median(few), median(ratios)}, "<= 1.5");
-    // With the merges of tables that fall among so many.
+    // Including the merges of tables that fall within these imports.
     print(fmt::format("import_one/{}/{}th_to_10th/mean", name, many), 1e3 * mean(much), "ms", 1e3 * mean(few),
           mean(much) / mean(few), "-");
   }

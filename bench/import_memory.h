@@ -1,6 +1,6 @@
 #pragma once
 
-// How much memory an import takes for itself.
+// The memory used by an import.
 
 #include <fcntl.h>
 #include <spawn.h>
@@ -20,17 +20,17 @@
 
 namespace signweave::bench {
 
-/// Anonymous memory of this process in bytes: what it took for itself, without the pages of files that it maps.
+/// Anonymous memory of this process in bytes, without the pages of mapped files.
 inline std::size_t anonymous_memory() {
   std::ifstream status("/proc/self/status");
   for (std::string line; std::getline(status, line);) {
     if (line.starts_with("RssAnon:")) return std::stoull(line.substr(8)) * 1024;
   }
-  throw std::runtime_error("/proc/self/status does not tell RssAnon");
+  throw std::runtime_error("/proc/self/status has no RssAnon");
 }
 
-/// Run as a program of its own: imports a file and prints by how much anonymous memory grew at most, and what the
-/// motion takes, in bytes. Looked at every half a millisecond.
+/// Run as a separate program: imports a file and prints the largest growth of anonymous memory, sampled every half a
+/// millisecond, and the size of the motion, both in bytes.
 inline int import_and_tell(const std::filesystem::path& bvh_path, const std::filesystem::path& folder) {
   Database::create(folder, {});
   Database database(folder, kv::Access::read_write);
@@ -68,16 +68,16 @@ inline void measure_memory(const std::filesystem::path& bvh_path, const std::str
   pid_t process = 0;
   const int fault = posix_spawn(&process, program.c_str(), &files, nullptr, arguments, environ);
   posix_spawn_file_actions_destroy(&files);
-  if (fault != 0) throw std::runtime_error("no process for the import");
+  if (fault != 0) throw std::runtime_error("cannot start a process for the import");
   int status = 0;
   waitpid(process, &status, 0);
   std::size_t grown = 0;
   std::size_t motion = 0;
   long long imported = 0;
   if (status != 0 || !(std::ifstream(printed) >> grown >> motion >> imported)) {
-    throw std::runtime_error("the import in a process of its own failed");
+    throw std::runtime_error("the import in a separate process failed");
   }
-  if (imported != frames) throw std::runtime_error(name + ": another count of frames was imported");
+  if (imported != frames) throw std::runtime_error(name + ": a different number of frames was imported");
   const double mega = 1e-6;
   print("import_memory/" + name, static_cast<double>(grown) * mega, "MB", static_cast<double>(motion) * mega,
         static_cast<double>(grown) / static_cast<double>(motion), goal);

@@ -1,8 +1,8 @@
-// What a junction costs beyond the copying of frames: per joint and frame of the transition against a bare slerp of as
-// many joints; and whether that depends on how many junctions there are. (Copying does: what fits into the caches is
-// copied faster, so it is measured apart, into as much memory.) Then the same on a signer with hands, whose arms are
-// kept out of the body and whose wrists and fingers are kept within limits. `--quick`: the default and the paper's,
-// fewer rounds.
+// The cost of a junction beyond the copying of frames: per joint and frame of the transition against a plain slerp of
+// as many joints; and whether it depends on the number of junctions. (Copying does: what fits into the caches is copied
+// faster, so it is measured separately, into as much memory.) Then the same on a signer with hands, whose arms are kept
+// out of the body and whose wrists and fingers are kept within limits. `--quick`: the default and the paper's, fewer
+// rounds.
 
 #include <random>
 
@@ -43,7 +43,7 @@ std::shared_ptr<const MotionSource> moving(std::int64_t frames) {
   return std::make_shared<MemorySource>(std::move(motion));
 }
 
-/// Signs from all over the recording, one after another.
+/// Signs from the whole recording, one after another.
 std::vector<MotionClip> signs(const std::shared_ptr<const MotionSource>& source, int count) {
   std::vector<MotionClip> clips;
   const std::int64_t places = source->frame_count() / (3 * kSign) - 1;
@@ -83,8 +83,8 @@ class BareSlerp {
   std::vector<Eigen::Quaternionf> a_, b_, out_;
 };
 
-/// An utterance of so many signs, joined again and again into the same memory; beside it, only the copying of its
-/// frames: each sign's own and, for the transition, as many again.
+/// An utterance of so many signs, joined repeatedly into the same memory; measured against only copying its frames:
+/// each sign's own and, for the transition, as many again.
 class Utterance {
  public:
   Utterance(const char* method, std::shared_ptr<const MotionSource> source, int count)
@@ -108,7 +108,7 @@ class Utterance {
     }
     bench::keep(copies_);
   }
-  /// Seconds per junction beyond the copying, the mean of some calls.
+  /// Seconds per junction beyond the copying, as a mean over several calls.
   double seconds_per_junction(int calls) {
     const double whole = bench::seconds_of([&] { join(); }, calls);
     const double copying = bench::seconds_of([&] { copy(); }, calls);
@@ -153,8 +153,8 @@ void long_against_short(const char* method, int rounds) {
                {bench::median(ours), bench::median(theirs), bench::median(ratios)}, "<= 1.15");
 }
 
-/// The default between signs of the demo's signer, in the utterance of the paper's first scenario. The frames that are
-/// made are those between what each part keeps of its own; what is kept is copied by the retrieval.
+/// The default method between signs of the demo's signer, in the utterance of the paper's first scenario. The generated
+/// frames are those between the frames that each part keeps of its own; the kept ones are copied by the retrieval.
 void on_a_signer(int rounds) {
   const bench::Folder folder("junction");
   const auto database = demo_database(folder.path() / "corpus.db", 2.0);

@@ -1,5 +1,5 @@
 // Forward kinematics of a body of 60 joints per joint and frame, against a naive scalar loop over the same hierarchy
-// that does nothing but the arithmetic; and how many times faster than real time hands are measured.
+// that does only the arithmetic; and how many times faster than real time hands are measured.
 
 #include <cstdlib>
 #include <cstring>
@@ -13,7 +13,7 @@ namespace {
 
 using namespace signweave;
 
-/// As one would write it down: numbers in arrays, one product and one turned offset a joint.
+/// The naive loop: numbers in arrays, one product and one rotated offset per joint.
 class NaiveLoop {
  public:
   explicit NaiveLoop(const Skeleton& skeleton) {

@@ -1,6 +1,7 @@
-// Query by example over 264,000 frames of two hands (44 minutes at 100 frames a second), against one pass over the
-// features that it looks at; and a condition on movement over every row, against the sum of the same numbers. Equal
-// answers to looking at all are checked first. At last a database is asked, for the first time and again.
+// Query by example over 264,000 frames of two hands (44 minutes at 100 frames per second), against one pass over the
+// features that it reads; and a condition on movement over every row, against the sum of the same numbers. Before that,
+// the answers are checked against those of a full comparison. Finally a database is queried, for the first time and
+// again.
 
 #include <algorithm>
 #include <cmath>
@@ -19,7 +20,8 @@ namespace {
 
 using namespace signweave;
 
-/// Hands that go from place to place, as in signing: a way takes a third to one second, then they rest a little.
+/// Hands that move from position to position, as in signing: a movement takes a third to one second, followed by a
+/// short rest.
 HandTrace wandering_hands(std::int64_t frames, FrameRate rate, std::mt19937& random) {
   HandTrace trace{.rate = rate, .frames = frames, .step = rate.hertz() > kTraceHertz ? 2 : 1, .shoulder_width = 0.35f};
   std::uniform_real_distribution<float> place(-1, 1);
@@ -52,7 +54,7 @@ HandTrace wandering_hands(std::int64_t frames, FrameRate rate, std::mt19937& ran
   return trace;
 }
 
-/// Signs one after the other, of 0.4 to 1.6 seconds, each with three phases that fill it.
+/// Consecutive signs of 0.4 to 1.6 seconds, each filled by three phases.
 std::vector<FrameRange> segments_of(const HandTrace& trace, bool phases, std::mt19937& random) {
   std::vector<FrameRange> result;
   std::uniform_real_distribution<double> seconds(0.4, 1.6);
@@ -78,13 +80,13 @@ Shape shape_of(const HandTrace& trace, FrameRange frames) {
   return shape;
 }
 
-/// All that is known of both palms, added up: what looking at each number once costs.
+/// All features of both palms, summed: the cost of reading each number once.
 std::int64_t sum_of(const HandTrace& trace) {
   std::int64_t sum = 0;
   for (const TracePoint point : {TracePoint::left_palm, TracePoint::right_palm}) {
     const auto* numbers = reinterpret_cast<const std::int16_t*>(trace[point].data());
     const std::size_t count = trace[point].size() * (sizeof(TraceSample) / sizeof(std::int16_t));
-    constexpr std::size_t kBlock = 4096;  // so that 32 bits hold its sum
+    constexpr std::size_t kBlock = 4096;  // so that its sum fits 32 bits
     for (std::size_t i = 0; i < count; i += kBlock) {
       std::int32_t part = 0;
       for (std::size_t k = i; k < std::min(i + kBlock, count); ++k) part += numbers[k];
@@ -107,7 +109,7 @@ class OneColumn : public Movement {
   std::vector<float> values_;
 };
 
-/// As fast as a compiler makes it: sixteen sums side by side.
+/// As fast as a compiler makes it: sixteen parallel sums.
 float sum_of(std::span<const float> values) {
   std::array<float, 16> sums{};
   for (std::size_t i = 0; i + 16 <= values.size(); i += 16) {
@@ -116,8 +118,8 @@ float sum_of(std::span<const float> values) {
   return std::accumulate(sums.begin(), sums.end(), 0.0f);
 }
 
-/// A condition that looks at one column of `rows` values, distributed so, against the sum of that column. False where
-/// it does not find exactly what is above `least`.
+/// A condition on one column of `rows` values, distributed as given, against the sum of that column. False if it does
+/// not find exactly the rows above `least`.
 bool scan_rows(const char* name, const char* condition, std::normal_distribution<float> value, double least,
                std::size_t rows, int rounds, std::mt19937& random) {
   std::vector<float> values(rows);
@@ -161,7 +163,7 @@ int main(int argc, char** argv) {
       const auto search = [&] {
         NearestSearch nearest(example, 20);
         for (std::uint32_t id = 0; id < segments.size(); ++id) {
-          if (nearest.too_far(TraceStretch(trace, segments[id]), kPalms)) continue;
+          if (nearest.too_far(TraceSpan(trace, segments[id]), kPalms)) continue;
           if (!resample(trace, TracePoint::left_palm, segments[id], shape[0])) continue;
           if (resample(trace, TracePoint::right_palm, segments[id], shape[1])) nearest.offer(id, shape);
         }
@@ -180,7 +182,7 @@ int main(int argc, char** argv) {
       });
       all.resize(std::min<std::size_t>(20, all.size()));
       if (found != all) {
-        fmt::print(stderr, "bench_like: the nearest are not those of looking at all\n");
+        fmt::print(stderr, "bench_like: the nearest are not those of a full comparison\n");
         return 1;
       }
       const std::string what = fmt::format("like/{}_of_{}_frames_at_{}", phases ? "phases" : "signs", frames,

@@ -1,6 +1,6 @@
 #pragma once
 
-// The part of bench/like that asks a database: one made recording of so many minutes at 100 frames a second.
+// The part of bench/like that queries a database: one generated recording of so many minutes at 100 frames per second.
 
 #include <fmt/format.h>
 
@@ -16,7 +16,7 @@
 
 namespace signweave::bench {
 
-/// All of the demo corpus as one recording: what is measured of a recording at once is then as much as can be.
+/// The whole demo corpus as one recording: the amount measured per recording is then as large as possible.
 inline demo::Script in_one(double minutes) {
   demo::Script whole;
   for (demo::Script& script : demo::corpus_scripts(minutes)) {
@@ -31,10 +31,10 @@ inline demo::Script in_one(double minutes) {
 
 struct Overshoot {
   double longest = 0;  ///< seconds from the deadline to the error
-  int stopped = 0;     ///< searches that their deadline ended
+  int stopped = 0;     ///< searches that ended at their deadline
 };
 
-/// Asks a database that has just been opened, again and again, with deadlines all over the time that the query takes.
+/// Queries a freshly opened database repeatedly, with deadlines spread over the time that the query takes.
 inline Overshoot overshoot(const std::filesystem::path& folder, const PhaseQuery& query, double seconds, int times) {
   Overshoot result;
   for (int i = 0; i < times; ++i) {
@@ -55,7 +55,7 @@ inline Overshoot overshoot(const std::filesystem::path& folder, const PhaseQuery
   return result;
 }
 
-/// First and later answers to queries on movement, and how soon they stop.
+/// First and later answers to queries on movement, and how soon they stop at a deadline.
 inline void ask_database(double minutes, int times) {
   const Folder folder("like");
   const std::filesystem::path path = folder.path() / "db";

@@ -1,8 +1,8 @@
 #pragma once
 
-// What every benchmark does: measure an action and its yardstick in turns, within one run, and print a line
-// "name value unit yardstick ratio goal". Machines are noisy: single figures mean little, ratios of interleaved medians
-// hold.
+// Shared by all benchmarks: measures an action and its yardstick in turns, within one run, and prints a line "name
+// value unit yardstick ratio goal". Machines are noisy: single figures mean little, but ratios of interleaved medians
+// are stable.
 
 #include <fmt/format.h>
 
@@ -21,7 +21,7 @@ inline double median(std::vector<double> values) {
   return *middle;
 }
 
-/// Seconds that one call of `action` takes, as the mean of `calls`.
+/// Seconds per call of `action`, as the mean of `calls`.
 template <typename Action>
 double seconds_of(Action&& action, int calls = 1) {
   const auto begin = std::chrono::steady_clock::now();
@@ -36,7 +36,7 @@ struct Compared {
   double ratio = 0;
 };
 
-/// Both in turns, `rounds` times, after one round that is not counted.
+/// Measures both in turns, `rounds` times, after one uncounted round.
 template <typename Ours, typename Yardstick>
 Compared compare(int rounds, Ours&& ours, Yardstick&& yardstick, int calls = 1) {
   std::vector<double> a, b, ratios;
@@ -51,13 +51,13 @@ Compared compare(int rounds, Ours&& ours, Yardstick&& yardstick, int calls = 1) 
   return {median(a), median(b), median(ratios)};
 }
 
-/// Keeps the compiler from dropping what made `value`.
+/// Keeps the compiler from discarding the computation of `value`.
 template <typename Value>
 inline void keep(const Value& value) {
   asm volatile("" : : "g"(&value) : "memory");
 }
 
-/// One result. `goal` is a text on the ratio such as "<= 1.5", or "-".
+/// Prints one result. `goal` is a condition on the ratio such as "<= 1.5", or "-".
 inline void print(std::string_view name, double value, std::string_view unit, double yardstick, double ratio,
                   std::string_view goal) {
   fmt::print("{} {:.4g} {} {:.4g} {:.3g} {}\n", name, value, unit, yardstick, ratio, goal);
@@ -68,7 +68,7 @@ inline void print(std::string_view name, double scale, std::string_view unit, co
   print(name, compared.ours * scale, unit, compared.yardstick * scale, compared.ratio, goal);
 }
 
-/// A folder of this benchmark's own, empty now and removed at the end.
+/// A folder of this benchmark, initially empty and removed at the end.
 class Folder {
  public:
   explicit Folder(std::string_view name)

@@ -1,8 +1,8 @@
-// What a query costs beside SQLite with covering indexes, on the same segments: 100 thousand and 1 million annotations,
-// replicated from the ELAN files of the shared data with generated sign and phase tiers beside them. Both sides are
-// asked the same, in turns, and their answers are compared row for row. Also: what opening costs, what the tables take,
-// and what the thousandth recording costs to import beside the tenth (`--growth`: that alone). `--quick`: a tenth of
-// everything, and none of the shared data.
+// The cost of a query against SQLite with covering indexes, on the same segments: 100 thousand and 1 million
+// annotations, replicated from the ELAN files of the shared data with added generated sign and phase tiers. Both sides
+// answer the same queries in turns, and their answers are compared row for row. Also: the cost of opening, the size of
+// the tables, and the cost of importing the thousandth recording against the tenth (`--growth`: only that). `--quick`:
+// a tenth of everything, and none of the shared data.
 
 #include <sqlite3.h>
 
@@ -62,7 +62,7 @@ class Statement {
   sqlite3_stmt* statement_ = nullptr;
 };
 
-/// The same segments in both.
+/// The same segments in both databases.
 struct Corpus {
   std::string name;
   std::size_t annotations = 0;
@@ -163,7 +163,7 @@ struct Times {
   double p50() const { return at(ours, 0.5); }
 };
 
-/// One question about each of some glosses, in turns.
+/// One query for each of several glosses, in turns.
 Times ask(const Corpus& corpus, const std::string& before, const std::string& after, const char* sql) {
   const std::shared_ptr<const Segments> segments = corpus.database->segments();
   Statement statement(corpus.sqlite, sql);
@@ -173,7 +173,7 @@ Times ask(const Corpus& corpus, const std::string& before, const std::string& af
   Times times;
   constexpr int kRounds = 3;
   constexpr int kCalls = 8;                 // reading the clock costs as much as a row
-  for (int i = -200; i < questions; ++i) {  // the first are to warm up, and are compared too
+  for (int i = -200; i < questions; ++i) {  // the first ones warm up, and are compared too
     const std::string gloss = fmt::format("G{}", random() % corpus.glosses);
     const std::string text = fmt::format("{}\"{}\"{}", before, gloss, after);
     PreparedQuery query(parse(text), segments);
@@ -241,7 +241,7 @@ void opening(const Corpus& corpus) {
   for (const Segments::Member& member : segments->members()) bytes += member.table.bytes().size();
   const double each = static_cast<double>(bytes) / static_cast<double>(corpus.annotations);
   bench::print(fmt::format("{}/index_bytes_per_annotation", corpus.name), each, "B", 40, each / 40, "<= 1");
-  // The yardstick: a checksum of so many bytes, which is what cannot be left out.
+  // The yardstick: a checksum of as many bytes, the part that cannot be avoided.
   const ByteSpan first = segments->members().front().table.bytes();
   const bench::Compared compared = bench::compare(
       9,

@@ -1,6 +1,6 @@
 #pragma once
 
-// How long a search goes on after it was told to stop: cancelled from another thread at random moments, or by its
+// How long a search continues after it was stopped: cancelled from another thread at random moments, or by its
 // deadline.
 
 #include <pthread.h>
@@ -18,8 +18,8 @@
 
 namespace signweave::bench {
 
-/// The longest of `tries` times, seconds, from being told to giving up. A try that ends by itself before counts as
-/// none.
+/// The longest time in seconds from the stop to the end of the search, of `tries`. A try that ends by itself before the
+/// stop is not counted.
 inline double slowest_stop(const char* text, const std::shared_ptr<const Segments>& segments, int tries, bool cancelled,
                            int& stopped) {
   clockid_t own{};
@@ -35,13 +35,13 @@ inline double slowest_stop(const char* text, const std::shared_ptr<const Segment
   for (int i = 0; i < tries; ++i) {
     const auto when = std::chrono::steady_clock::now() + std::chrono::microseconds(500 + random() % 150'000);
     std::atomic<bool> cancel = false;
-    double told = 0;
+    double stopped_at = 0;
     FindLimits limits;
     if (cancelled) limits.cancel = &cancel;
     if (!cancelled) limits.deadline = when;
     std::thread other([&] {
       std::this_thread::sleep_until(when);
-      told = worked();
+      stopped_at = worked();
       cancel = true;
     });
     bool threw = false;
@@ -54,12 +54,12 @@ inline double slowest_stop(const char* text, const std::shared_ptr<const Segment
     other.join();
     if (!threw) continue;
     ++stopped;
-    longest = std::max(longest, end - told);
+    longest = std::max(longest, end - stopped_at);
   }
   return longest;
 }
 
-/// Queries that take long each in their way: combinations without end, an answer of every row, sorting, expressions,
+/// Queries that take long for different reasons: endless combinations, an answer of every row, sorting, expressions,
 /// partners that are sequences.
 inline void measure_stops(std::string_view corpus, const std::shared_ptr<const Segments>& segments, bool quick) {
   const struct {

@@ -1,6 +1,6 @@
-// What choosing one token a place costs: utterances of 1,000 and of 10,000 places (`--quick`: 200 and 2,000) with 100
-// tokens each, beside a bare loop over the same pairs of tokens and beside the aim of 50 ms; three places ahead; and
-// all of it on a database.
+// The cost of choosing one token per place: utterances of 1,000 and of 10,000 places (`--quick`: 200 and 2,000) with
+// 100 tokens each, against a plain loop over the same pairs of tokens and against the aim of 50 ms; three places ahead;
+// and the complete selection on a database.
 
 #include <random>
 
@@ -16,10 +16,10 @@ using namespace signweave;
 constexpr std::size_t kTokens = 100;
 constexpr std::size_t kGlosses = 400;  // different ones
 
-/// How tokens lie.
+/// How tokens are distributed.
 enum class Corpus {
-  glosses,  ///< a gloss has its place and shape, its tokens differ by a fifth of what glosses differ by
-  blur,     ///< anywhere: nothing tells tokens of one gloss from others, so few can be passed over
+  glosses,  ///< a gloss has its position and shape; its tokens differ by a fifth of the difference between glosses
+  blur,     ///< anywhere: tokens of one gloss are not similar to each other, so few can be skipped
 };
 
 std::vector<std::shared_ptr<const JoinEnds>> make_glosses(Corpus corpus) {
@@ -62,7 +62,7 @@ std::vector<PlaceCosts> make_places(Corpus corpus, std::size_t count) {
   return places;
 }
 
-/// Every pair once, as one writes it down.
+/// Every pair once, in a plain loop.
 double bare(const std::vector<PlaceCosts>& places) {
   double total = 0;
   for (std::size_t i = 1; i < places.size(); ++i) {
@@ -124,7 +124,7 @@ void on_made_tokens(Corpus corpus, std::string_view name, std::size_t count, int
   bench::print(fmt::format("select/{}/cost_three_ahead", name), total, "cost", least, total / least, "<= 1.05");
 }
 
-/// 1,000 signs from a few minutes of the demo corpus, candidates and all.
+/// 1,000 signs from a few minutes of the demo corpus, including the lookup of candidates.
 void on_database(double minutes, int rounds) {
   constexpr int kPlaces = 1000;
   const bench::Folder folder("select");

@@ -1,8 +1,8 @@
-// The motion store: engines x access modes x questions, warm, beside a memcpy of the same numbers from memory.
+// The motion store: engines x access modes x reads, warm, against a memcpy of the same numbers from memory.
 //
-// Lines "store/ENGINE/MODE/QUESTION": microseconds a read, those of the memcpy, their ratio, and the same with
-// "/bytes": bytes read, bytes asked for. Then single frames at random beside frames in order, and the engines' gets
-// beside a memcpy and beside a bare loop over the engine's own functions.
+// Lines "store/ENGINE/MODE/QUESTION": microseconds per read, those of the memcpy, their ratio, and the same with
+// "/bytes": bytes read, bytes requested. Then random single frames against frames in order, and the engines' gets
+// against a memcpy and against a plain loop over the engine's own functions.
 
 #include <malloc.h>
 
@@ -31,7 +31,7 @@ struct Options {
   std::vector<std::string> engines = kv::engines();
 };
 
-/// The corpus in one store, cut in one way.
+/// The corpus in one store, in one access mode.
 class StoredCorpus {
  public:
   StoredCorpus(const std::filesystem::path& folder, const std::string& engine, AccessMode mode, const Corpus& corpus)
@@ -58,7 +58,7 @@ class StoredCorpus {
   Motion read(const Question& question, const Ask& ask, motion_db::ReadCost* cost = nullptr) const {
     return motion_db::read(*snapshot_, stored_[ask.motion], skeletons_[ask.motion], ask.frames, question.joints, cost);
   }
-  /// Poses only; into memory that is used again, and that is for `ask` until the next one.
+  /// Poses only; into reused memory, which belongs to `ask` until the next call.
   MutablePoses read_again(const Ask& ask) {
     const auto frames = static_cast<std::size_t>(ask.frames.size());
     const Skeleton& skeleton = *skeletons_[ask.motion];
@@ -77,7 +77,7 @@ class StoredCorpus {
     }
   }
 
-  /// Throws where an answer is not what was put; afterwards every record has been read once and verified.
+  /// Throws if an answer differs from what was put; afterwards every record has been read once and verified.
   void check(const std::vector<Question>& questions) {
     for (std::size_t i = 0; i < corpus_.motions.size(); ++i) {
       const Ask all{i, {0, corpus_.motions[i].frame_count()}};
@@ -94,7 +94,7 @@ class StoredCorpus {
 
  private:
   void require(bool holds, std::string_view what) const {
-    if (!holds) throw std::runtime_error(fmt::format("{}: {} is read other than it was put", mode(), what));
+    if (!holds) throw std::runtime_error(fmt::format("{}: {} read differs from what was put", mode(), what));
   }
   bool same(const MutablePoses& read, const Ask& ask) const {
     const Motion should = corpus_.motions[ask.motion].slice(ask.frames);
@@ -124,7 +124,8 @@ class StoredCorpus {
   std::vector<Eigen::Vector3f> translations_;
 };
 
-/// Seconds a call of `ours(i)` and `yardstick(i)`, i = 0, 1, …: as many calls a round as take long enough to be timed.
+/// Seconds per call of `ours(i)` and `yardstick(i)`, i = 0, 1, …: a round has as many calls as needed to be timed
+/// reliably.
 template <typename Ours, typename Yardstick>
 bench::Compared compare_many(const Options& options, Ours&& ours, Yardstick&& yardstick) {
   std::size_t mine = 0, other = 0;
@@ -153,7 +154,7 @@ void measure_question(StoredCorpus& stored, const std::string& name, AccessMode:
                question.fits == kind ? "<= 2" : "-");
 }
 
-/// Single frames at random beside single frames in order: read by `read`.
+/// Random single frames against single frames in order, read by `read`.
 template <typename Read>
 void measure_order(const std::string& name, const Corpus& corpus, const Question& random, const Options& options,
                    const Read& read) {
@@ -234,7 +235,7 @@ void measure_gets(const std::string& engine, const char* name, std::size_t value
   Bytes buffer(value_size), answer(value_size);
   const auto ours = [&](std::size_t i) {
     const std::optional<ByteSpan> value = snapshot->get(key_of(order[i % count]), buffer);
-    if (!value || value->size() != value_size) throw std::runtime_error("a value has another size");
+    if (!value || value->size() != value_size) throw std::runtime_error("a value has a different size");
     if (value->data() != buffer.data()) std::memcpy(buffer.data(), value->data(), value_size);
     bench::keep(buffer);
   };
@@ -247,7 +248,7 @@ void measure_gets(const std::string& engine, const char* name, std::size_t value
     theirs(i);
     const ByteSpan is = value_of(order[i]);
     if (!std::ranges::equal(ByteSpan(buffer).first(value_size), is) || !std::ranges::equal(answer, is)) {
-      throw std::runtime_error(engine + ": a value is read other than it was put");
+      throw std::runtime_error(engine + ": a value read differs from what was put");
     }
   }
   bench::print(fmt::format("store/{}/{}", engine, name), 1e9, "ns",
@@ -264,8 +265,8 @@ void measure_gets(const std::string& engine, const char* name, std::size_t value
 }  // namespace
 
 int main(int count, char** arguments) {
-  // A read makes a new Motion. Left alone, glibc gives its memory back to the system after each, and half of what we
-  // measured would be page faults.
+  // A read creates a new Motion. By default, glibc returns its memory to the system after each read, and half of what
+  // is measured would be page faults.
   ::mallopt(M_TRIM_THRESHOLD, 1 << 28);
   ::mallopt(M_MMAP_THRESHOLD, 1 << 25);
   try {
@@ -281,7 +282,8 @@ int main(int count, char** arguments) {
       } else if (word == "--mode" && i + 1 < count && parse_access_mode(arguments[i + 1])) {
         options.modes = {*parse_access_mode(arguments[++i])};
       } else {
-        fmt::print(stderr, "bench_store: '{}'? It knows --quick, --engine NAME and --mode MODE\n", word);
+        fmt::print(stderr, "bench_store: unknown argument '{}'; available: --quick, --engine NAME and --mode MODE\n",
+                   word);
         return 2;
       }
     }

@@ -1,6 +1,6 @@
 #pragma once
 
-// The engines' own functions, bare: a loop of gets as it would be written without signweave. One function an engine.
+// The engines' own functions without signweave: a plain loop of gets. One function per engine.
 
 #include <lmdb.h>
 #if SIGNWEAVE_BERKELEY
@@ -24,7 +24,7 @@ namespace signweave::bench {
 class BareStore {
  public:
   virtual ~BareStore() = default;
-  /// Copies a value to `buffer`, which has room for it, and gives its size.
+  /// Copies a value to `buffer`, which must have room for it, and returns its size.
   virtual std::size_t get(ByteSpan key, Bytes& buffer) = 0;
 };
 

@@ -1,6 +1,6 @@
 #pragma once
 
-// What bench/store asks: the demo corpus in memory, what is asked of it, and the memcpy of what is asked.
+// The reads of bench/store: the demo corpus in memory, the requests, and the memcpy of what they request.
 
 #include <cstring>
 #include <random>
@@ -45,18 +45,18 @@ inline Corpus make_corpus(double minutes) {
   return corpus;
 }
 
-/// Some frames of one motion.
+/// A range of frames of one motion.
 struct Ask {
   std::size_t motion = 0;
   FrameRange frames;
 };
 
-/// A kind of question, and many of them at random places.
+/// A kind of request, with many instances at random positions.
 struct Question {
   std::string_view name;
   JointSet joints;           ///< empty: all
-  AccessMode::Kind fits;     ///< the mode that is made for it
-  bool from_source = false;  ///< asked of a StoredSource that has verified everything: poses only, into used memory
+  AccessMode::Kind fits;     ///< the mode designed for it
+  bool from_source = false;  ///< read through a StoredSource that has verified everything: poses only, into used memory
   std::vector<Ask> asks = {};
 };
 
@@ -102,7 +102,7 @@ inline std::size_t bytes_asked(const Corpus& corpus, const Question& question, c
   return static_cast<std::size_t>(ask.frames.size()) * frame;
 }
 
-/// The yardstick: the same numbers copied from the motions in memory, to where they would lie in the answer.
+/// The yardstick: copies the same numbers from the motions in memory to a buffer laid out as the answer.
 class BareCopy {
  public:
   explicit BareCopy(const Corpus& corpus) : corpus_(corpus) {
@@ -128,7 +128,7 @@ class BareCopy {
       for (std::size_t i = 0; !question.from_source && i < tracks_.size(); ++i) {
         copy(tracks_[i].data(), std::span(motion.tracks()[i].values).subspan(begin, count));
       }
-    } else {  // the joints of a hand are neighbours
+    } else {  // the joints of a hand are adjacent
       const auto first = static_cast<std::size_t>(question.joints.front());
       for (std::size_t frame = 0; frame < count; ++frame) {
         copy(rotations_.data() + frame * joints + first,

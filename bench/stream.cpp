@@ -1,10 +1,10 @@
-// What streaming costs, measured by a client beside the server: how soon the first frame of a gloss leaves, how many
-// paced streams keep their time and what they cost beside a loop that only sends, what batches gain and what a client
-// that reads nothing costs. The server is a process of its own.
+// The cost of streaming, measured by a client on the same machine: how soon the first frame of a gloss is sent, how
+// many paced streams keep their time and what they cost against a loop that only sends, what batches gain and what a
+// client that reads nothing costs. The server is a separate process.
 //
-// Arguments: --quick is the shortest form; --database FOLDER takes that one, and else 44 minutes of the demo corpus are
-// made; --only PART measures one of: codec, first, long, paced, batches, stalled; --streams N paces so many only;
-// --no-io-uring: the server sends each message by a call of its own.
+// Arguments: --quick is the shortest form; --database FOLDER uses that database instead of generating 44 minutes of the
+// demo corpus; --only PART measures one of: codec, first, long, paced, batches, stalled; --streams N uses only N paced
+// streams; --no-io-uring: the server sends each message by a separate system call.
 
 #include <sys/resource.h>
 #include <unistd.h>
@@ -37,14 +37,14 @@ struct Size {
   std::vector<std::size_t> paced = {100, 500, 1000};
   double settle = 2;
   double first_seconds = 5;
-  double until_again = 10;  // the longest of the utterances has begun anew by then
+  double until_again = 10;  // by then the longest of the utterances has begun again
   double seconds = 15;
   int batch_rounds = 5;
   double batch_seconds = 1;
   std::size_t stalled = 200;
   double stalled_seconds = 10;
 };
-/// How long the bare loop sleeps at least, seconds; and with the server's own tick.
+/// The minimum sleep of the bare loop, seconds; and the server's own tick.
 constexpr double kBareTick = 0.001;
 constexpr double kServersTick = 0.002;
 constexpr std::size_t kOfPaced = 8;  // glosses of one stream's utterance
@@ -80,7 +80,7 @@ void print_times(std::string_view name, std::vector<double> seconds, const std::
   print(fmt::format("stream/first_frame/{}:p99_against_the_aim", name), aimed, "ms", 5, aimed / 5, "<= 1");
 }
 
-/// Seconds there and back of an empty control message.
+/// Seconds of the round trip of an empty control message.
 double ping(Connection& stream) {
   const double begin = now();
   stream.send(R"({"type":"ping"})");
@@ -93,11 +93,11 @@ double first_frame(Connection& stream, std::string_view type, std::string_view u
   const std::string message = control(type, utterance);
   const double begin = now();
   stream.send(message);
-  if (!wait_for_answer(stream)) throw std::runtime_error("the server does not sign");
+  if (!wait_for_answer(stream)) throw std::runtime_error("the server sends no signing");
   return wait_for_frames(stream).at - begin;
 }
 
-/// What the server says of the same, where it does.
+/// The server's own measurement of the same, if it has one.
 void print_of_server(const Server& server) {
   const std::string name = "signweave_first_frame_seconds";
   const double all = server.metric(name + "_count");
@@ -120,7 +120,8 @@ void first_frames(const Server& server, Utterances& utterances, const Size& size
   std::sort(pings.begin(), pings.end());
   print_times("fresh", fresh, pings);
 
-  // Streams at rest, which send the breathing signer all the while: one after another gets a gloss, whenever it rests.
+  // Streams at rest, which send the breathing signer continuously: one after another is sent a gloss, whenever it
+  // rests.
   std::vector<std::unique_ptr<Connection>> streams;
   for (std::size_t i = 0; i < size.resting_streams; ++i) {
     streams.push_back(server.open(kLive));
@@ -131,9 +132,10 @@ void first_frames(const Server& server, Utterances& utterances, const Size& size
     Connection& stream = *streams[static_cast<std::size_t>(i) % streams.size()];
     while (!is_of_type(stream.wait().text, "rest")) {
     }
-    while (stream.read([](const Connection::Message&) {})) {  // what came since
+    while (stream.read([](const Connection::Message&) {})) {  // received meanwhile
     }
-    std::this_thread::sleep_for(std::chrono::microseconds(1'000 + 331 * (i % 50)));  // at any moment between two frames
+    std::this_thread::sleep_for(
+        std::chrono::microseconds(1'000 + 331 * (i % 50)));  // at varying moments between two frames
     while (stream.read([](const Connection::Message&) {})) {
     }
     at_rest.push_back(first_frame(stream, "append", utterances.of(1)));
@@ -144,7 +146,7 @@ void first_frames(const Server& server, Utterances& utterances, const Size& size
 
 void long_utterances(const Server& server, Utterances& utterances, const Size& size) {
   std::vector<double> longer, shorter;
-  // Each with glosses of its own: what is signed for the second time is kept, and would be as quick however long.
+  // Each with its own glosses: repeated signing is cached, and would be as fast for any length.
   for (int round = -1; round < size.long_rounds; ++round) {
     const double a = first_frame(*server.open(kLive), "sign", utterances.of(size.long_utterance));
     const double b = first_frame(*server.open(kLive), "sign", utterances.of(10));
@@ -156,7 +158,7 @@ void long_utterances(const Server& server, Utterances& utterances, const Size& s
         1e3 * median(shorter), median(longer) / median(shorter), "<= 1.2");
 }
 
-/// Streams that loop: the first time through, everything is chosen, read and made for each; from then on it is kept.
+/// Streams that loop: in the first round everything is chosen, read and computed for each; later rounds are cached.
 struct Looped {
   Paced first_time;
   Paced again;
@@ -168,7 +170,8 @@ Looped paced_by_server(const Server& server, Utterances& utterances, std::size_t
     streams.push_back(server.open(kLoop));
     streams.back()->send(control("sign", utterances.of(kOfPaced)));
     if (i % 20 > 0) continue;
-    for (const auto& stream : streams) stream->read([](const Connection::Message&) {});  // nobody is slow
+    for (const auto& stream : streams)
+      stream->read([](const Connection::Message&) {});  // reads, so that no client is slow
   }
   const auto cpu = [&] { return server.process().cpu_seconds(); };
   Looped looped;
@@ -177,7 +180,7 @@ Looped paced_by_server(const Server& server, Utterances& utterances, std::size_t
   return looped;
 }
 
-/// A process that only sends; of so many bytes a message.
+/// A process that only sends, with so many bytes per message.
 struct BareSender {
   BareSender(std::size_t streams, double bytes, double rate, double tick, const std::filesystem::path& work)
       : process({"/proc/self/exe", "--bare-sender", std::to_string(streams), fmt::format("{:.0f}", bytes),
@@ -215,7 +218,7 @@ void print_missed(const std::string& name, const Paced& paced) {
   print(name, static_cast<double>(paced.missed), "frames", due, static_cast<double>(paced.missed) / due, "<= 0");
 }
 
-/// Per frame that came: neither side gains by sending less.
+/// Per received frame, so that neither side gains by sending less.
 double us_a_frame(const Paced& paced) {
   return 1e6 * paced.server_cpu_seconds / static_cast<double>(paced.frames);
 }
@@ -249,7 +252,7 @@ void paced_streams(const Server& server, Utterances& utterances, const std::file
   }
 }
 
-/// What comes on a stream that sends as fast as this client takes it.
+/// What is received on a stream that sends as fast as this client reads.
 struct Flow {
   double frames_a_second = 0;
   double message_bytes = 0;
@@ -279,7 +282,7 @@ Flow flow_of_server(const Server& server, Utterances& utterances, int batch, dou
   return flow_of(*stream, seconds);
 }
 
-/// Messages of as many bytes that are only sent.
+/// Messages of the same size that are only sent.
 double messages_a_second(double bytes, const std::filesystem::path& work, double seconds) {
   const BareSender sender(1, bytes, 0, kBareTick, work);
   Connection stream(sender.port);
@@ -321,7 +324,7 @@ double tcp_memory() {
 
 void stalled_clients(const Server& server, Utterances& utterances, const Size& size) {
   constexpr double kMiB = 1 << 20;
-  // All sign the same: the transitions that the server keeps are not a client's.
+  // All sign the same, because transitions cached by the server must not be counted as a client's.
   const std::string text = utterances.of(kOfPaced);
   std::vector<std::unique_ptr<Connection>> reading;
   reading.push_back(server.open(kLoop));
@@ -334,15 +337,15 @@ void stalled_clients(const Server& server, Utterances& utterances, const Size& s
     stalled.push_back(server.open(kLoop));
     stalled.back()->send(control("sign", text));
   }
-  const Paced beside =
+  const Paced with_stalled =
       receive_paced(reading, kRate, size.settle, size.stalled_seconds, [&] { return server.process().cpu_seconds(); });
   const auto each = [&](double bytes) { return bytes / kMiB / static_cast<double>(size.stalled); };
   const double grown = each(server.process().resident_bytes() - before);
   print("stream/stalled_client_against_the_aim", grown, "MiB", 1, grown, "<= 1");
   print("stream/stalled_client/both_ends_in_the_system", each(tcp_memory() - tcp_before), "MiB", 1,
         each(tcp_memory() - tcp_before), "-");
-  print_missed("stream/beside_stalled_clients/missed_of_due", beside);
-  print_lateness("stream/beside_stalled_clients", beside);
+  print_missed("stream/beside_stalled_clients/missed_of_due", with_stalled);
+  print_lateness("stream/beside_stalled_clients", with_stalled);
 }
 
 std::filesystem::path database_in(const std::filesystem::path& folder, double minutes) {
@@ -378,7 +381,7 @@ int main(int argc, char** argv) {
       return 2;
     }
   }
-  // A thousand connections are more than a shell may allow at first.
+  // A thousand connections may exceed a shell's initial limit.
   rlimit files{};
   getrlimit(RLIMIT_NOFILE, &files);
   files.rlim_cur = files.rlim_max;
@@ -388,7 +391,7 @@ int main(int argc, char** argv) {
     const std::filesystem::path path = database.empty() ? database_in(work.path(), minutes) : database.c_str();
     Utterances utterances(path);
     const auto wanted = [&](std::string_view part) { return only.empty() || only == part; };
-    // A server of its own for each part: none pays for what was before it.
+    // A separate server for each part, so that none is affected by earlier parts.
     const auto measure = [&](std::string_view part, auto&& action) {
       if (!wanted(part)) return;
       const Server server(path, work.path(), options);

@@ -20,7 +20,7 @@ class Table {
     rows_.push_back({file, compared});
   }
   void print() {
-    if (rows_.empty() || (each_ && rows_.size() == 1)) return;  // or said already
+    if (rows_.empty() || (each_ && rows_.size() == 1)) return;  // or reported already
     std::sort(rows_.begin(), rows_.end(),
               [](const Row& a, const Row& b) { return a.compared.ratio < b.compared.ratio; });
     if (rows_.size() > 1) {

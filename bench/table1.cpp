@@ -1,7 +1,7 @@
-// The paper's Table 1: its two scenarios on 44 minutes of motion, beside the paper's own figures; and the motion part
-// of the first (retrieval and concatenation) beside a bare memcpy of its output.
+// The paper's Table 1: its two scenarios on 44 minutes of motion, against the paper's own figures; and the motion part
+// of the first (retrieval and concatenation) against a plain memcpy of its output.
 //
-// Arguments: --table prints a table for people instead of lines; --minutes M takes another corpus;
+// Arguments: --table prints a table for people instead of lines; --minutes M uses a corpus of another length;
 // --quick two minutes and fewer rounds.
 
 #include <malloc.h>
@@ -129,7 +129,7 @@ std::size_t size_of(const Motion& motion) {
          motion.tracks().size() * static_cast<std::size_t>(motion.frame_count()) * sizeof(float);
 }
 
-/// All of a motion's numbers, to `to`.
+/// Copies all numbers of a motion to `to`.
 void copy(const Motion& motion, std::byte* to) {
   std::memcpy(to, motion.rotations().data()->coeffs().data(), motion.rotations().size_bytes());
   to += motion.rotations().size_bytes();
@@ -141,7 +141,7 @@ void copy(const Motion& motion, std::byte* to) {
   }
 }
 
-/// Scenario 1 in all, warm and on a database that was opened this moment, beside the aims for them.
+/// Scenario 1 in total, warm and on a database just opened, against the aims for them.
 void compare_with_aims(const std::filesystem::path& folder, const Scenario& scenario) {
   bench::print("table1/scenario1/total_warm", scenario.ours.total, "ms", 1.8, scenario.ours.total / 1.8, "<= 1");
   std::vector<double> opened;
@@ -159,7 +159,7 @@ double seconds_of_motion_part(const Synthesized& made) {
 
 /// Scenario 1's retrieval and concatenation against a memcpy of its output.
 void compare_with_memcpy(const Database& database, const Edit& edit) {
-  // Blocks of a megabyte always come from the system and go back to it: whoever allocates one touches new pages.
+  // Blocks of a megabyte always come from the system and are returned to it, so every allocation touches new pages.
   ::mallopt(M_MMAP_THRESHOLD, 1 << 20);
   Synthesis used = synthesize(database, "meteo", edit).result;
   std::vector<std::byte> warm(size_of(used.motion));
@@ -207,7 +207,7 @@ int main(int count, char** arguments) {
       } else if (word == "--minutes" && i + 1 < count) {
         minutes = std::stod(arguments[++i]);
       } else {
-        fmt::print(stderr, "bench_table1: '{}'? It knows --table, --quick and --minutes M\n", word);
+        fmt::print(stderr, "bench_table1: unknown argument '{}'; available: --table, --quick and --minutes M\n", word);
         return 2;
       }
     }

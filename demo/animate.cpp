@@ -18,7 +18,7 @@ using Eigen::Matrix3f;
 using Eigen::Quaternionf;
 using Eigen::Vector3f;
 
-/// Fills the frames of one motion, one after another.
+/// Fills the frames of one motion in order.
 class Animator {
  public:
   Animator(const Signer& signer, const Timeline& timeline, const HandPlan& plan, Random& random)
@@ -27,7 +27,7 @@ class Animator {
         face_(face_of(timeline, random)),
         arms_(signer, plan, timeline.rate.hertz(), random) {}
 
-  /// To be done for every frame, in order, before any is filled. `pose` is overwritten.
+  /// Must be called for every frame, in order, before any is filled. Overwrites `pose`.
   void look_ahead(std::int64_t frame, MutablePoseView pose) {
     arms_.look_ahead(frame, stand(body_[static_cast<std::size_t>(frame)], pose));
   }
@@ -41,7 +41,7 @@ class Animator {
     for (const Side side : kSides) fill_leg(side, pose);
   }
 
-  /// The face's tracks, once every frame is filled.
+  /// The face's tracks; valid once every frame is filled.
   FaceMotion take_face() { return std::move(face_); }
 
  private:
@@ -61,7 +61,7 @@ class Animator {
     const Vector3f x = Vector3f::UnitX();
     const Vector3f y = Vector3f::UnitY();
     const Vector3f z = Vector3f::UnitZ();
-    // The knees keep a little bend, so the hips are lower than in the rest pose.
+    // The knees stay slightly bent, so the hips are lower than in the rest pose.
     pose.translations[0] = signer_.skeleton->joint(signer_.hips).offset + body.hips - 0.014f * y;
     of(pose, signer_.hips) = turn(body.hips_yaw, y) * turn(body.hips_roll, z);
     of(pose, signer_.spine) = turn(0.35 * body.pitch, x) * turn(0.3 * body.roll, z);
@@ -69,7 +69,7 @@ class Animator {
         turn(0.35 * body.yaw, y) * turn(0.35 * body.pitch - 0.006 * body.breath, x) * turn(0.3 * body.roll, z);
     of(pose, signer_.spine2) =
         turn(0.65 * body.yaw, y) * turn(0.30 * body.pitch - 0.014 * body.breath, x) * turn(0.4 * body.roll, z);
-    // The neck gives back what the trunk takes.
+    // The neck compensates for the rotation of the trunk.
     const double yaw = body.head_yaw - body.yaw - body.hips_yaw;
     const double pitch = body.head_pitch - body.pitch + 0.014 * body.breath;
     const double roll = body.head_roll - body.roll - body.hips_roll;
@@ -81,7 +81,7 @@ class Animator {
     of(pose, signer_.head) = part(0.5);
   }
 
-  /// Eyes and jaw, and the lids that follow the eyes.
+  /// Fills eyes and jaw, and the lids that follow the eyes.
   void fill_face(std::int64_t frame, const BodyFrame& body, MutablePoseView pose) {
     constexpr double kMost = 0.43;  // radians
     const Vector3f look = rotation(signer_.head).conjugate() * body.look;
@@ -100,7 +100,7 @@ class Animator {
         turn(0.02 + 0.24 * static_cast<double>(face_.of(FaceTrack::jawOpen)[at]), Vector3f::UnitX());
   }
 
-  /// Feet stand where they stood in the rest pose, whatever the hips do.
+  /// The feet stay where they are in the rest pose, whatever the hips do.
   void fill_leg(Side side, MutablePoseView pose) {
     const SideJoints& joints = signer_.side(side);
     const Vector3f hip = signer_.rest_position(joints.up_leg);
@@ -130,7 +130,7 @@ class Animator {
   std::vector<BodyFrame> body_;
   FaceMotion face_;
   Arms arms_;
-  ModelPose model_;  ///< of the frame being filled, right for trunk, head and hips only
+  ModelPose model_;  ///< of the frame being filled; valid for trunk, head and hips only
 };
 
 }  // namespace

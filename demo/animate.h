@@ -6,8 +6,9 @@
 
 namespace signweave::demo {
 
-/// Makes the motion of a timeline with the tracks of its face: arms by inverse kinematics to the plan's wrists, hands
-/// from handshape to handshape, a body that breathes, follows and looks, on feet that stand. `plan` is of `timeline`.
+/// Generates the motion of a timeline with the scalar tracks of its face: arms by inverse kinematics to the wrists of
+/// the plan, hands interpolated between handshapes, and a body with planted feet that breathes, follows the hands and
+/// looks. `plan` must be that of `timeline`.
 Motion animate(const Signer& signer, const Timeline& timeline, const HandPlan& plan, Random& random);
 
 }  // namespace signweave::demo

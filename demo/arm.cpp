@@ -19,7 +19,7 @@ constexpr float radians(float degrees) {
 
 constexpr float kMiddleTwist = radians(-5);
 
-/// The rotation that takes the rest pose's arm (along x, bending about −y) to a bone direction and a hinge.
+/// The rotation from the rest pose's arm (along x, bending about −y) to a bone direction and a hinge.
 Quaternionf bone_rotation(const Vector3f& along, const Vector3f& hinge) {
   Matrix3f axes;
   axes.col(0) = along;
@@ -40,7 +40,7 @@ Quaternionf forearm_twist(float twist) {
 }
 
 Vector3f elbow_direction(const Vector3f& axis, float swivel) {
-  // Hanging, a little out and back: where an elbow lies by itself.
+  // The relaxed position of an elbow: hanging, slightly out and back.
   const Vector3f natural(0.30f, -1.0f, -0.35f);
   const Vector3f across = (natural - natural.dot(axis) * axis).normalized();
   return std::cos(swivel) * across + std::sin(swivel) * axis.cross(across);
@@ -55,7 +55,7 @@ float excess(float value, float limit) {
 TwoBones solve_two_bones(const Vector3f& start, const Vector3f& target, float upper, float lower,
                          const Vector3f& toward) {
   const Vector3f line = target - start;
-  // Never quite straight: the hinge would have no direction, and real elbows and knees keep a little bend.
+  // Never fully straight: the hinge would be undefined, and real elbows and knees stay slightly bent.
   const float length = std::clamp(line.norm(), std::abs(upper - lower) + 0.01f, 0.995f * (upper + lower));
   const Vector3f axis = line.normalized();
   const Vector3f across = (toward - toward.dot(axis) * axis).normalized();
@@ -79,7 +79,7 @@ ArmPose solve_arm(const Vector3f& shoulder, const Vector3f& wrist, ArmSizes size
 
 WristAngles comfortable_wrist(const Vector3f& shoulder, const Vector3f& wrist, ArmSizes sizes, const Vector3f& palm,
                               const Vector3f& fingers, float swivel) {
-  Matrix3f axes;  // the rest pose's hand: fingers along x, palm towards −y
+  Matrix3f axes;  // the hand in the rest pose: fingers along x, palm towards −y
   axes.col(0) = fingers.normalized();
   axes.col(1) = -(palm - palm.dot(axes.col(0)) * axes.col(0)).normalized();
   axes.col(2) = axes.col(0).cross(axes.col(1));
@@ -90,7 +90,7 @@ WristAngles comfortable_wrist(const Vector3f& shoulder, const Vector3f& wrist, A
   for (int degrees = -5; degrees <= 60; ++degrees) {
     WristAngles angles{.swivel = radians(static_cast<float>(degrees))};
     const Quaternionf turn = solve_arm(shoulder, wrist, sizes, angles).fore_arm.conjugate() * hand;
-    // turn = twist about x, then a swing without any: its x is 0.
+    // turn = twist about x, then a swing without twist: its x is 0.
     float twist = 2 * std::atan2(turn.x(), turn.w());
     const float full = 2 * std::numbers::pi_v<float>;
     twist -= full * std::round((twist - kMiddleTwist) / full);
@@ -113,7 +113,7 @@ WristAngles comfortable_wrist(const Vector3f& shoulder, const Vector3f& wrist, A
 
 WristAngles limited(WristAngles angles) {
   angles.twist = std::clamp(angles.twist, radians(-90), radians(85));
-  // A wrist that is fully bent cannot lean aside as well: the limits lie on an ellipse.
+  // A fully bent wrist cannot deviate sideways as well: the limits form an ellipse.
   const float aside = angles.radial / (angles.radial > 0 ? radians(25) : radians(40));
   const float over = std::hypot(angles.flexion / radians(70), aside);
   if (over > 1) {
@@ -124,7 +124,7 @@ WristAngles limited(WristAngles angles) {
 }
 
 Quaternionf clavicle_rotation(const Vector3f& shoulder_to_wrist) {
-  const Vector3f reach = shoulder_to_wrist / 0.53f;  // of a whole arm
+  const Vector3f reach = shoulder_to_wrist / 0.53f;  // as a fraction of the arm's length
   const float raised = 0.5f * (reach.y() + 1.0f);
   const float lift = 0.24f * raised * raised;
   const float forward = 0.14f * reach.z();

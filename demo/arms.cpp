@@ -27,7 +27,7 @@ Vector3f middle_of(const std::vector<Vector3f>& points) {
   return sum / static_cast<float>(points.size());
 }
 
-/// The longest of 2 × half + 1 neighbours.
+/// The longest vector among 2 × half + 1 neighbours.
 std::vector<Vector3f> widened(const std::vector<Vector3f>& values, int half) {
   const auto count = static_cast<int>(values.size());
   std::vector<Vector3f> result(values.size());
@@ -66,7 +66,7 @@ WristAngles mix(const WristAngles& a, const WristAngles& b, float t) {
 
 }  // namespace
 
-ArmUnrest::ArmUnrest(Random& random)
+ArmIdleMotion::ArmIdleMotion(Random& random)
     : place{{random, 0.2, 1.1}, {random, 0.2, 1.1}, {random, 0.2, 1.1}},
       tremor{{random, 3, 7}, {random, 3, 7}, {random, 3, 7}},
       twist(random, 0.2, 0.9),
@@ -75,8 +75,11 @@ ArmUnrest::ArmUnrest(Random& random)
       swivel(random, 0.05, 0.4),
       fingers{{random, 0.1, 0.8}, {random, 0.1, 0.8}, {random, 0.1, 0.8}, {random, 0.1, 0.8}, {random, 0.1, 0.8}} {}
 
-Arms::Arms(const Signer& signer, const HandPlan& plan, double frames_a_second, Random& random)
-    : signer_(signer), plan_(plan), fps_(frames_a_second), unrest_{ArmUnrest(random), ArmUnrest(random)} {
+Arms::Arms(const Signer& signer, const HandPlan& plan, double frames_per_second, Random& random)
+    : signer_(signer),
+      plan_(plan),
+      fps_(frames_per_second),
+      idle_motion_{ArmIdleMotion(random), ArmIdleMotion(random)} {
   const Skeleton& skeleton = *signer.skeleton;
   sizes_ = {skeleton.joint(signer.left.fore_arm).offset.norm(), skeleton.joint(signer.left.hand).offset.norm()};
   shoulder_ = signer.rest_position(signer.left.arm);
@@ -93,7 +96,7 @@ void Arms::look_ahead(std::int64_t frame, const Trunk& trunk) {
 void Arms::give_way_smoothly() {
   const int half = std::max(1, static_cast<int>(0.04 * fps_));
   for (std::vector<Vector3f>& away : given_way_) {
-    away = widened(away, 2 * half);  // or smoothing would take from the peaks
+    away = widened(away, 2 * half);  // otherwise smoothing would lower the peaks
     for (int round = 0; round < 3; ++round) away = smoothed(away, half);
   }
 }
@@ -111,7 +114,7 @@ void Arms::fill(std::int64_t frame, const Trunk& trunk, MutablePoseView pose) {
   }
 }
 
-/// Angles of the left arm (the right's are the same in the mirror) for a wrist at a place of the sign table.
+/// Angles of the left arm (the same for the right, mirrored) for a wrist at a position of the sign table.
 WristAngles Arms::angles_at(const Vector3f& place, const Vector3f& palm, const Vector3f& fingers, float swivel) const {
   const Vector3f wrist = to_model(place, Side::left);
   const Vector3f clavicle = signer_.rest_position(signer_.left.shoulder);
@@ -119,12 +122,12 @@ WristAngles Arms::angles_at(const Vector3f& place, const Vector3f& palm, const V
   return comfortable_wrist(shoulder, wrist, sizes_, palm, fingers, swivel);
 }
 WristAngles Arms::angles_at(const Vector3f& place, const Vector3f& palm, const Vector3f& fingers) const {
-  // The elbow lifts with the hand.
+  // The elbow rises with the hand.
   const float high = std::clamp((place.y() + 0.15f) / 0.35f, 0.0f, 1.0f);
   return angles_at(place, palm, fingers, kNaturalSwivel + 0.25f * high * high);
 }
 
-/// What an arm is like at an end of a stretch of the plan, without what is special about a token.
+/// The arm at an end of a piece of the plan, without variation per token.
 const WristAngles& Arms::held(const HandPlan::End& end, Side side) {
   const SignShape* sign = end.sign != nullptr && acts(*end.sign->shape, side) ? end.sign->shape : nullptr;
   return held(sign, side, sign != nullptr ? end.stroke : static_cast<int>(end.rest));
@@ -144,7 +147,7 @@ WristAngles Arms::find_held(const SignShape* sign, Side side, int which) {
   }
   const Vector3f place = stroke_place(*sign, side, static_cast<float>(which));
   if (which == 0) return angles_at(place, sign->palm, sign->fingers);
-  // In the stroke the elbow stays about where it is.
+  // During the stroke the elbow stays approximately in place.
   const float swivel = held(sign, side, 0).swivel;
   return angles_at(place, sign->palm_end.value_or(sign->palm), sign->fingers_end.value_or(sign->fingers), swivel);
 }
@@ -161,7 +164,7 @@ WristAngles Arms::angles_of_end(const HandPlan::End& end, Side side) {
 Arms::PosedArm Arms::pose_arm(Side side, const Vector3f& wrist, const WristAngles& angles, const Trunk& trunk) const {
   PosedArm posed;
   posed.clavicle = clavicle_rotation(wrist - shoulder_) * turn(0.012 * trunk.breath, Vector3f::UnitZ());
-  // Clavicle and arm hang on the chest, which has its own rotation.
+  // Clavicle and arm are attached to the chest, which has its own rotation.
   posed.chest = as_left(trunk.model.rotations[static_cast<std::size_t>(signer_.spine2)], side);
   const Vector3f clavicle_place =
       as_left(trunk.model.positions[static_cast<std::size_t>(signer_.side(side).shoulder)], side);
@@ -170,7 +173,7 @@ Arms::PosedArm Arms::pose_arm(Side side, const Vector3f& wrist, const WristAngle
   return posed;
 }
 
-/// Wrist, finger joints, tips, and the middles between them, model space.
+/// Wrist, finger joints, tips, and the midpoints between them, model space.
 std::vector<Vector3f> Arms::hand_points(const ArmPose& arm, const FingerRotations& fingers, Side side) const {
   const Skeleton& skeleton = *signer_.skeleton;
   std::vector<Vector3f> points = {as_left(arm.wrist, side)};
@@ -194,7 +197,7 @@ std::vector<Vector3f> Arms::hand_points(const ArmPose& arm, const FingerRotation
 }
 
 WristAngles Arms::angles_in(const HandPlan::Piece& piece, Side side, double frame) {
-  const ArmUnrest& unrest = unrest_[static_cast<std::size_t>(side)];
+  const ArmIdleMotion& idle_motion = idle_motion_[static_cast<std::size_t>(side)];
   const double seconds = frame / fps_;
   const auto done = static_cast<float>(HandPlan::done_in(piece, frame));
   WristAngles angles = mix(angles_of_end(piece.from, side), angles_of_end(piece.to, side), done);
@@ -209,26 +212,26 @@ WristAngles Arms::angles_in(const HandPlan::Piece& piece, Side side, double fram
     const int times = times_of(sign, token);
     if (sign.movement == Movement::twist) angles.twist += static_cast<float>(0.50 * much * std::sin(2 * times * turns));
     if (sign.movement == Movement::nod) angles.flexion += static_cast<float>(0.42 * much * std::sin(2 * times * turns));
-    // Where the arm goes to and fro the wrist gives a little.
+    // Where the arm moves back and forth, the wrist yields slightly.
     if (sign.movement == Movement::repeated) {
       angles.flexion -= static_cast<float>(0.14 * much * std::sin((2 * times - 1) * turns));
     }
   }
-  angles.twist += static_cast<float>(0.020 * unrest.twist.at(seconds));
-  angles.flexion += static_cast<float>(0.020 * unrest.flexion.at(seconds));
-  angles.radial += static_cast<float>(0.012 * unrest.radial.at(seconds));
-  angles.swivel += static_cast<float>(0.030 * unrest.swivel.at(seconds));
+  angles.twist += static_cast<float>(0.020 * idle_motion.twist.at(seconds));
+  angles.flexion += static_cast<float>(0.020 * idle_motion.flexion.at(seconds));
+  angles.radial += static_cast<float>(0.012 * idle_motion.radial.at(seconds));
+  angles.swivel += static_cast<float>(0.030 * idle_motion.swivel.at(seconds));
   return limited(angles);
 }
 
 HandAngles Arms::fingers_in(const HandPlan::Piece& piece, Side side, double frame) const {
-  const ArmUnrest& unrest = unrest_[static_cast<std::size_t>(side)];
+  const ArmIdleMotion& idle_motion = idle_motion_[static_cast<std::size_t>(side)];
   const double seconds = frame / fps_;
   const bool acting = piece.is_stroke() && acts(*piece.from.sign->shape, side);
   const bool flutter = acting && piece.from.sign->shape->movement == Movement::flutter;
   HandAngles from = angles_of(shape_of(piece.from, side));
   HandAngles to = angles_of(shape_of(piece.to, side));
-  // A hand that holds loosens a little.
+  // A holding hand relaxes slightly.
   const auto loosen = [&](HandAngles& angles, float let_go) {
     const HandAngles& relaxed = angles_of(Handshape::relaxed);
     for (std::size_t finger = 0; finger < kFingers; ++finger) {
@@ -242,7 +245,7 @@ HandAngles Arms::fingers_in(const HandPlan::Piece& piece, Side side, double fram
   HandAngles angles = blend(from, to, static_cast<float>(HandPlan::shape_done(piece, frame)));
   const double time = HandPlan::time_in(piece, frame);
   for (std::size_t finger = 0; finger < kFingers; ++finger) {
-    double bend = 1.4 * unrest.fingers[finger].at(seconds);
+    double bend = 1.4 * idle_motion.fingers[finger].at(seconds);
     if (flutter) {
       const double window = std::sin(std::numbers::pi * time);
       bend += 17 * static_cast<double>(piece.from.sign->token.size) * window * window *
@@ -263,7 +266,7 @@ void Arms::pose_limb(Limb& limb, Side side, const Trunk& trunk) const {
   limb.posed = pose_arm(side, limb.wrist, limb.angles, trunk);
   limb.points = hand_points(limb.posed.arm, limb.fingers, side);
 }
-/// The planned wrist without its full stops: a hand rounds the corners between a way and a stroke.
+/// The planned wrist without its full stops: a hand rounds the corners between a movement and a stroke.
 Vector3f Arms::flowing(Side side, double frame) const {
   constexpr float kWeights[] = {1, 2, 3, 2, 1};
   Vector3f sum = Vector3f::Zero();
@@ -273,7 +276,7 @@ Vector3f Arms::flowing(Side side, double frame) const {
   return sum;
 }
 Arms::Limb Arms::planned_limb(Side side, double frame, const Trunk& trunk) {
-  const ArmUnrest& unrest = unrest_[static_cast<std::size_t>(side)];
+  const ArmIdleMotion& idle_motion = idle_motion_[static_cast<std::size_t>(side)];
   const double seconds = frame / fps_;
   const HandPlan::Piece& piece = plan_.piece_at(side, frame);
   Limb limb;
@@ -281,21 +284,22 @@ Arms::Limb Arms::planned_limb(Side side, double frame, const Trunk& trunk) {
   limb.angles = angles_in(piece, side, frame);
   limb.wrist = as_left(flowing(side, frame), side);
   for (int i = 0; i < 3; ++i) {
-    limb.wrist[i] += static_cast<float>(0.0010 * unrest.place[i].at(seconds) + 0.0002 * unrest.tremor[i].at(seconds));
+    limb.wrist[i] +=
+        static_cast<float>(0.0010 * idle_motion.place[i].at(seconds) + 0.0002 * idle_motion.tremor[i].at(seconds));
   }
   pose_limb(limb, side, trunk);
   return limb;
 }
 
-/// Moves hands that touch each other apart, and out of head and trunk.
+/// Moves colliding hands apart, and out of head and trunk.
 void Arms::give_way(Limbs& limbs, const Trunk& trunk) const {
   for (int round = 0; round < 5; ++round) {
     const float apart = too_close(limbs[0].points, limbs[1].points);
     if (apart <= 0) break;
     const Vector3f across = middle_of(limbs[0].points) - middle_of(limbs[1].points);
-    const Vector3f way = 0.5f * apart * (across + Vector3f(0.03f, 0, 0)).normalized();
-    limbs[0].wrist += way;
-    limbs[1].wrist += in_mirror(-way);
+    const Vector3f shift = 0.5f * apart * (across + Vector3f(0.03f, 0, 0)).normalized();
+    limbs[0].wrist += shift;
+    limbs[1].wrist += in_mirror(-shift);
     for (const Side side : kSides) pose_limb(limbs[static_cast<std::size_t>(side)], side, trunk);
   }
   for (const Side side : kSides) stay_outside(limbs[static_cast<std::size_t>(side)], side, trunk);

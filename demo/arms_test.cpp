@@ -1,4 +1,4 @@
-// Arms and hands: what they keep out of, and what joints allow.
+// Arms and hands: obstacles they avoid, and joint limits.
 
 #include "demo/arms.h"
 
@@ -16,7 +16,7 @@ namespace {
 
 using Eigen::Vector3f;
 
-TEST(KeepOut, PushesPointsOutOfABarAndLeavesOthersAlone) {
+TEST(KeepOut, PushesPointsOutOfACapsuleAndLeavesOthersAlone) {
   const Capsule bars[] = {{.from = {0, 1, 0}, .to = {0, 1.4f, 0}, .radius = 0.1f}};
   EXPECT_NEAR(clearance(bars[0], {0.25f, 1.2f, 0}), 0.15f, 1e-6f);
   EXPECT_NEAR(clearance(bars[0], {0, 1.55f, 0}), 0.05f, 1e-6f);
@@ -26,14 +26,14 @@ TEST(KeepOut, PushesPointsOutOfABarAndLeavesOthersAlone) {
   const Vector3f push = push_out(bars, deep);
   EXPECT_GT(clearance(bars[0], deep[0] + push), 0.0f);
   EXPECT_LT(push.norm(), 0.08f);
-  EXPECT_GT(push.z(), 0);  // the nearest way out
-  // It begins softly.
+  EXPECT_GT(push.z(), 0);  // the shortest direction out
+  // The onset is soft.
   const Vector3f near[] = {{0.1155f, 1.2f, 0}};
   EXPECT_GT(push_out(bars, near).norm(), 0);
   EXPECT_LT(push_out(bars, near).norm(), 1e-4f);
 }
 
-TEST(KeepOut, TellsHowMuchTooCloseTwoHandsAre) {
+TEST(KeepOut, ReturnsHowMuchTooCloseTwoHandsAre) {
   const Vector3f one[] = {{0, 0, 0}, {0.1f, 0, 0}};
   const Vector3f apart[] = {{0, 0.05f, 0}};
   const Vector3f close[] = {{0.1f, 0.005f, 0}};
@@ -41,7 +41,7 @@ TEST(KeepOut, TellsHowMuchTooCloseTwoHandsAre) {
   EXPECT_NEAR(too_close(one, close), 0.011f, 1e-4f);
 }
 
-/// Poses every frame of a script with bars of its own choosing.
+/// Poses every frame of a script with custom capsules.
 class Posed {
  public:
   Posed(const Script& script, std::uint64_t seed, const std::array<Capsule, 2>& bars)
@@ -86,9 +86,9 @@ Script of(std::vector<std::vector<std::string_view>> units) {
 
 const Capsule kNowhere{.from = {9, 9, 9}, .to = {9, 9.1f, 9}};
 
-TEST(Arms, GoRoundABarInTheirWay) {
+TEST(Arms, AvoidACapsuleInTheirPath) {
   const Script script = of({{"NORD", "SUD", "VANNES", "NORD"}});
-  // Upright, beside the right hand's way to the north.
+  // Upright, next to the path of the right hand to the north.
   const Capsule bar{.from = {-0.13f, 1.2f, 0.31f}, .to = {-0.13f, 1.7f, 0.31f}, .radius = 0.05f};
   const Posed free(script, 1, {kNowhere, kNowhere});
   const Posed barred(script, 1, {bar, kNowhere});
@@ -103,11 +103,11 @@ TEST(Arms, GoRoundABarInTheirWay) {
   EXPECT_GT(deepest, -0.01f);
 }
 
-TEST(Arms, GiveWayToEachOtherWithoutAJerk) {
+TEST(Arms, AvoidEachOtherWithoutAJerk) {
   float nearest = 1;
   float hardest = 0;
   for (const std::uint64_t seed : {1, 2, 3}) {
-    // Left to themselves these would pass 5 mm from bone to bone, inside each other.
+    // Without avoidance these would pass 5 mm from bone to bone, inside each other.
     const Posed posed(of({{"MATIN", "AUTOMNE", "MATIN", "AUTOMNE"}, {"CENTRE", "MATIN", "CENTRE", "MATIN"}}), seed,
                       {kNowhere, kNowhere});
     std::vector<Vector3f> before, earlier;
@@ -130,7 +130,7 @@ TEST(Arms, GiveWayToEachOtherWithoutAJerk) {
   EXPECT_LT(hardest, 120.0f);
 }
 
-TEST(Limited, KeepsForearmAndWristWithinWhatJointsAllow) {
+TEST(Limited, KeepsForearmAndWristWithinJointLimits) {
   const auto radians = [](double degrees) { return static_cast<float>(degrees * std::numbers::pi / 180); };
   const WristAngles far = limited({.twist = 3, .flexion = 2, .radial = 0.5f, .swivel = 0.3f});
   EXPECT_NEAR(far.twist, radians(85), 1e-5f);

@@ -9,10 +9,10 @@ namespace {
 
 using Eigen::Vector3f;
 
-/// Follows a target as a damped spring does that never swings past it.
+/// Follows a target as an overdamped spring does, without overshooting.
 class Follower {
  public:
-  /// The higher `rate` (per second), the closer: it is about 2 / rate seconds behind.
+  /// The higher `rate` (per second), the closer it follows: it lags by about 2 / rate seconds.
   Follower(double rate, double start) : rate_(rate), value_(start) {}
   double step(double target, double seconds) {
     const double pull = rate_ * rate_ * (target - value_) - 2 * rate_ * speed_;
@@ -27,18 +27,18 @@ class Follower {
   double speed_ = 0;
 };
 
-/// 0 outside, 1 in the middle of a stretch of time, smooth.
+/// 0 outside, 1 in the middle of a time range, smooth.
 double bump(double at, double begin, double end) {
   if (at <= begin || at >= end) return 0;
   const double s = std::sin(std::numbers::pi * (at - begin) / (end - begin));
   return s * s;
 }
 
-/// Where the eyes look from some moment on.
+/// The direction of the eyes from some moment on.
 struct Glance {
   double from = 0;  ///< frame
   Gaze gaze = Gaze::viewer;
-  float aside = 0, up = 0;  ///< metres at the viewer's: nobody stares at one point
+  float aside = 0, up = 0;  ///< metres at the viewer: a gaze does not rest on one point
 };
 
 std::vector<Glance> glances(const Timeline& timeline, Random& random) {
@@ -49,7 +49,7 @@ std::vector<Glance> glances(const Timeline& timeline, Random& random) {
     result.push_back(
         {from, gaze, static_cast<float>(0.05 * random.normal()), static_cast<float>(0.03 * random.normal())});
   };
-  /// Small leaps about the viewer's face until then.
+  /// Small jumps around the viewer's face until then.
   const auto linger = [&](double until) {
     for (;;) {
       const double next = result.back().from + random.uniform(0.7, 2.4) * fps;
@@ -79,15 +79,15 @@ Turned turned(const Vector3f& direction) {
 Vector3f look_at(const Glance& glance, const Vector3f& right, const Vector3f& left) {
   const Vector3f eyes(0, 1.59f, 0.09f);
   if (glance.gaze == Gaze::viewer) return Vector3f(glance.aside, glance.up, 2.2f).normalized();
-  // The hands as a whole, the one that does more above all; a little above the wrists. The left one counts more the
-  // nearer it comes to the right one's height: were it all or nothing, eyes would leap by 25° from frame to frame.
+  // The hands as a whole, weighted to the one that moves more; slightly above the wrists. The weight of the left hand
+  // rises as it approaches the height of the right: with a hard switch the eyes would jump by 25° from frame to frame.
   const float near = std::clamp((left.y() - right.y() + 0.20f) / 0.10f, 0.0f, 1.0f);
   const float share = 0.35f * near * near * (3 - 2 * near);
   const Vector3f hands = right + share * (left - right) + Vector3f(0, 0.07f, 0.05f);
   return (hands - eyes).normalized();
 }
 
-/// Head movements that go with signs and sentences, radians.
+/// Head movements that accompany signs and sentences, radians.
 struct Gesture {
   double begin, end;  ///< frames
   double nod;
@@ -99,7 +99,7 @@ std::vector<BodyFrame> move_body(const Timeline& timeline, const HandPlan& plan,
   const double fps = timeline.rate.hertz();
   const double seconds_of_frame = 1 / fps;
 
-  // What changes from sentence to sentence and from sign to sign, as steps that the followers make smooth.
+  // Values that change from sentence to sentence and from sign to sign, as steps that the followers smooth.
   struct Stance {
     double from, weight, tilt, turn;
   };
@@ -152,8 +152,8 @@ std::vector<BodyFrame> move_body(const Timeline& timeline, const HandPlan& plan,
     body.hips_yaw = 0.012 * hips[2].at(seconds);
     body.hips_roll = 0.6 * shift;
 
-    // The shoulder of the hand that reaches farther comes forward with it, and the trunk turns and leans to where the
-    // hands are.
+    // The shoulder of the hand that reaches farther moves forward with it, and the trunk turns and leans towards the
+    // hands.
     const double aside = 0.5 * static_cast<double>(right.x() + left.x());
     const double reach = static_cast<double>(std::max(right.z(), left.z())) - 0.22;
     const double high = static_cast<double>(std::max(right.y(), left.y())) - 1.30;

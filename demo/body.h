@@ -6,19 +6,19 @@
 
 namespace signweave::demo {
 
-/// What trunk, head and eyes do in one frame. Radians and metres, model space; positive angles turn to the signer's
-/// left, lean forward, tilt to the right.
+/// Trunk, head and eyes in one frame. Radians and metres, model space; positive angles turn to the signer's left, lean
+/// forward, tilt to the right.
 struct BodyFrame {
-  Eigen::Vector3f hips = Eigen::Vector3f::Zero();  ///< away from where they are in the rest pose
+  Eigen::Vector3f hips = Eigen::Vector3f::Zero();  ///< offset from the rest pose
   double hips_yaw = 0, hips_roll = 0;
-  double yaw = 0, pitch = 0, roll = 0;                 ///< of the chest over the hips
+  double yaw = 0, pitch = 0, roll = 0;                 ///< of the chest relative to the hips
   double breath = 0;                                   ///< −1 (out) to 1
-  double head_yaw = 0, head_pitch = 0, head_roll = 0;  ///< of the head, whatever the trunk does
-  Eigen::Vector3f look = Eigen::Vector3f::UnitZ();     ///< unit: where the eyes look
+  double head_yaw = 0, head_pitch = 0, head_roll = 0;  ///< of the head, independent of the trunk
+  Eigen::Vector3f look = Eigen::Vector3f::UnitZ();     ///< unit: direction of the gaze
 };
 
-/// The body of a recording, [frame]: the trunk follows the hands with a lag and shifts its weight between sentences,
-/// the eyes leap to the hands or the viewer and the head comes after them, nods where a sentence ends.
+/// The body of a recording, [frame]: the trunk follows the hands with a lag and shifts its weight between sentences;
+/// the eyes jump to the hands or the viewer, and the head follows them and nods at the end of a sentence.
 std::vector<BodyFrame> move_body(const Timeline& timeline, const HandPlan& plan, Random& random);
 
 }  // namespace signweave::demo

@@ -48,7 +48,7 @@ AnnotationDocument annotation_of(const Script& script, const Timeline& timeline)
   const FrameClock clock{.frame_time = timeline.rate.frame_time()};
   AnnotationDocument document;
   document.author = "signweave demo: synthetic, placeholder shapes, not LSF";
-  document.date = "1970-01-01T00:00:00+00:00";  // no clock: the same bytes always
+  document.date = "1970-01-01T00:00:00+00:00";  // no clock, so that the bytes are always the same
   document.linked_files.push_back({.url = "./" + script.name + ".bvh",
                                    .relative_url = "./" + script.name + ".bvh",
                                    .mime_type = "application/octet-stream",
@@ -87,15 +87,15 @@ Timeline timeline_of(const Script& script, FrameRate rate, std::uint64_t seed) {
 }
 
 SyntheticRecording make_recording(const Script& script, FrameRate rate, std::uint64_t seed) {
-  // One stream of numbers per recording and use, so that a change of one leaves the others as they are.
-  Random unrest(Random(mixed(script, seed)).bits());
+  // One random stream per recording and use, so that a change of one does not affect the others.
+  Random idle_motion(Random(mixed(script, seed)).bits());
   const Signer signer = make_signer();
   SyntheticRecording recording;
   recording.name = script.name;
   recording.timeline = timeline_of(script, rate, seed);
-  Random ways(unrest.bits());
-  const HandPlan plan(script, recording.timeline, ways);
-  recording.motion = animate(signer, recording.timeline, plan, unrest);
+  Random paths(idle_motion.bits());
+  const HandPlan plan(script, recording.timeline, paths);
+  recording.motion = animate(signer, recording.timeline, plan, idle_motion);
   recording.document = annotation_of(script, recording.timeline);
   recording.truth = truth_of(recording.timeline, plan);
   return recording;

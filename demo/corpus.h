@@ -9,7 +9,7 @@
 
 namespace signweave::demo {
 
-/// One made recording, with everything that is known about it.
+/// One synthetic recording with its ground truth.
 struct SyntheticRecording {
   std::string name;
   Motion motion;
@@ -18,14 +18,14 @@ struct SyntheticRecording {
   std::string truth;  ///< CSV with a header: gloss,phase,begin_ms,end_ms,hand,x,y,z,handshape,size; see make_recording
 };
 
-/// The signs of a recording at their times, and the annotation of them.
+/// The signs of a recording at their times, and their annotation.
 Timeline timeline_of(const Script& script, FrameRate rate, std::uint64_t seed);
 AnnotationDocument annotation_of(const Script& script, const Timeline& timeline);
 
-/// Makes a recording. The same script, rate and seed give the same recording; the truth has one row per phase and hand
-/// that acts in the sign, with the place where the plan has that wrist at the phase's end (metres, model space; the
-/// motion's own wrist is within 2 cm of it), the handshape it has or is nearest to there, and the size of this token's
-/// movement beside the sign table's. The motion's scalar tracks are the face's (face.h).
+/// Generates a recording. The same script, rate and seed give the same recording. The truth has one row per phase and
+/// acting hand, with the planned wrist position at the phase's end (metres, model space; the motion's own wrist is
+/// within 2 cm of it), the handshape the hand has or is nearest to there, and the size of this token's movement
+/// relative to the sign table. The motion's scalar tracks are those of the face (face.h).
 SyntheticRecording make_recording(const Script& script, FrameRate rate, std::uint64_t seed);
 
 /// A contact sheet (SVG) with the begin and the end of every stroke.

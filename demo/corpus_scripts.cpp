@@ -11,7 +11,7 @@ namespace {
 
 using Words = std::vector<std::string_view>;
 
-/// The kinds of words that the grammar knows. Every word of the sign table is of one kind at least.
+/// The word classes of the grammar. Every word of the sign table belongs to at least one.
 const std::map<std::string_view, Words> kWords = {
     {"greeting", {"BONJOUR", "ATTENTION"}},
     {"news", {"METEO", "LE-TEMPS-PREVU", "CE-SERA-LE-MOMENT"}},
@@ -34,8 +34,8 @@ const std::map<std::string_view, Words> kWords = {
     {"farewell", {"MERCI", "AU-REVOIR"}},
 };
 
-/// Recordings of one kind: a first sentence, sentences in any order, a last one. A word in small letters stands for any
-/// of its kind, one in capitals for itself; a question mark leaves it out every other time.
+/// Recordings of one kind: a first sentence, sentences in any order, a last one. A lower-case word is any word of that
+/// class, an upper-case word is that word itself; a question mark omits it every other time.
 struct Theme {
   std::string_view name;
   Milliseconds mean, deviation;  ///< of transitions: between those of meteo and of villes
@@ -101,7 +101,7 @@ Words split(std::string_view text) {
   return words;
 }
 
-/// Writes sentences, and knows how often each word was used.
+/// Writes sentences, and counts how often each word was used.
 class Author {
  public:
   explicit Author(std::uint64_t seed) : random_(seed) {}
@@ -132,7 +132,7 @@ class Author {
   }
 
  private:
-  /// Mostly one of the least used, none twice in a sentence.
+  /// Usually one of the least used words; never one already in the sentence.
   std::string_view rarest(const Words& words, const std::vector<std::string_view>& taken) {
     std::string_view best;
     double least = 0;
@@ -163,7 +163,7 @@ Script write_script(const Theme& theme, std::string name, double seconds, Author
     whole.units.push_back(last);
     return whole;
   };
-  constexpr double kSentence = 8;  // about, seconds
+  constexpr double kSentence = 8;  // approximate, seconds
   while (expected_seconds(with_last()) + 0.5 * kSentence < seconds) {
     script.units.push_back(author.sentence(author.any(theme.sentences)));
   }
@@ -182,7 +182,7 @@ std::vector<Script> corpus_scripts(double minutes) {
   }
   const auto further = static_cast<int>(std::max(0.0, std::round((60 * minutes - made) / 120)));
   for (int i = 0; i < further; ++i) {
-    // What one recording is longer or shorter, the next ones make good.
+    // The next recordings compensate for one that is longer or shorter.
     const double seconds = (60 * minutes - made) / (further - i);
     const Theme& theme = kThemes[static_cast<std::size_t>(i) % std::size(kThemes)];
     scripts.push_back(write_script(theme, fmt::format("{}-{:02}", theme.name, i + 1), seconds, author));

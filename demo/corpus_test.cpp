@@ -1,4 +1,4 @@
-// The corpus as a whole: how much of it there is, and of what.
+// The corpus as a whole: its size and contents.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -22,7 +22,7 @@ TEST(Corpus, OfTwoMinutesIsMeteoAndVilles) {
   }
 }
 
-TEST(Corpus, HasTheMinutesAskedForInRecordingsOfAboutTwo) {
+TEST(Corpus, HasTheRequestedMinutesInRecordingsOfAboutTwo) {
   for (const double minutes : {6.0, 15.0, 44.0}) {
     const std::vector<Script> scripts = corpus_scripts(minutes);
     if (minutes == 44) {
@@ -44,18 +44,18 @@ TEST(Corpus, HasTheMinutesAskedForInRecordingsOfAboutTwo) {
   }
 }
 
-TEST(Corpus, SaysEveryWordOfTheTableFiveTimesOrMore) {
+TEST(Corpus, UsesEveryWordOfTheTableFiveTimesOrMore) {
   std::map<std::string_view, int> tokens;
   for (const Script& script : corpus_scripts(44)) {
     for (const auto& unit : script.units) {
       for (const std::string_view gloss : unit) ++tokens[gloss];
     }
   }
-  EXPECT_EQ(tokens.size(), sign_table().size());  // and none that the table lacks, as sign_for would say
+  EXPECT_EQ(tokens.size(), sign_table().size());  // and no others: sign_for would report a word that the table lacks
   for (const auto& [gloss, count] : tokens) EXPECT_GE(count, 5) << gloss;
 }
 
-TEST(Corpus, HasSentencesOfFourToNineSignsWithoutRepeatingThemselves) {
+TEST(Corpus, HasDistinctSentencesOfFourToNineSigns) {
   std::set<std::vector<std::string_view>> sentences;
   std::size_t count = 0;
   const std::vector<Script> scripts = corpus_scripts(44);

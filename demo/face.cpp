@@ -18,11 +18,11 @@ constexpr std::string_view kNames[kFaceTracks] = {
     "mouthClose",        "mouthFunnel",     "mouthPucker",      "mouthSmileLeft", "mouthSmileRight", "mouthStretchLeft",
     "mouthStretchRight", "mouthPressLeft",  "mouthPressRight",  "cheekPuff"};
 
-/// A mouth at one moment.
+/// The mouth at one moment.
 struct Lips {
   float jaw = 0, close = 0, funnel = 0, pucker = 0, smile = 0, stretch = 0, press = 0, puff = 0;
 };
-/// A mouth goes from one to the other in the stroke.
+/// A mouth changes from the first shape to the second during the stroke.
 struct Mouthing {
   Lips first, second;
 };
@@ -72,7 +72,7 @@ Weights weights_of(const Lips& lips, Brows brows, float lopsided) {
   return weights;
 }
 
-/// A running mean, the ends taken as going on: of any length it keeps values within their range.
+/// A running mean with the ends extended: for any length it keeps values within their range.
 void smooth(std::vector<float>& values, std::int64_t width) {
   const auto count = static_cast<std::int64_t>(values.size());
   const std::int64_t half = std::max<std::int64_t>(1, width / 2);
@@ -89,7 +89,7 @@ void smooth(std::vector<float>& values, std::int64_t width) {
   values = std::move(result);
 }
 
-/// When the eyes blink: the frames in which they are shut.
+/// The frames at which the eyes blink.
 std::vector<std::int64_t> blinks(const Timeline& timeline, Random& random) {
   const double fps = timeline.rate.hertz();
   std::vector<std::int64_t> frames;
@@ -105,7 +105,7 @@ std::vector<std::int64_t> blinks(const Timeline& timeline, Random& random) {
     const bool last = i + 1 == timeline.signs.size() || timeline.signs[i + 1].begin > sign.end;
     const double waited =
         (static_cast<double>(sign.stroke_end) - static_cast<double>(frames.empty() ? 0 : frames.back())) / fps;
-    // The longer the eyes have been open, the more likely.
+    // The longer the eyes have been open, the more likely a blink is.
     const bool wanted = random.uniform() < 0.10 * waited;
     const double when = static_cast<double>(sign.stroke_end) + random.uniform(0.10, 0.30) * fps;
     if (last || wanted) blink(when);
@@ -126,7 +126,7 @@ FaceMotion face_of(const Timeline& timeline, Random& random) {
   FaceMotion face;
   for (std::vector<float>& track : face.tracks) track.assign(count, 0.0f);
 
-  // Where two signs claim one frame, the stronger weight of each track shows.
+  // If two signs claim one frame, the larger weight of each track applies.
   const auto show = [&](double begin, double end, const Weights& weights) {
     const auto first = static_cast<std::size_t>(std::clamp(begin, 0.0, static_cast<double>(count)));
     const auto past = static_cast<std::size_t>(std::clamp(end, 0.0, static_cast<double>(count)));
@@ -151,7 +151,7 @@ FaceMotion face_of(const Timeline& timeline, Random& random) {
     };
     show(begin, middle, scaled(weights_of(mouthing.first, Brows::level, lopsided)));
     show(middle, end, scaled(weights_of(mouthing.second, Brows::level, lopsided)));
-    // Brows are slower than the mouth and span more.
+    // Brows are slower than the mouth and last longer.
     show(begin - 0.10 * fps, end + 0.10 * fps, scaled(weights_of({}, wanted.brows, lopsided)));
   }
 
@@ -162,7 +162,7 @@ FaceMotion face_of(const Timeline& timeline, Random& random) {
     const bool slow = track < static_cast<std::size_t>(jawOpen);
     for (const double seconds : {slow ? 0.16 : 0.09, slow ? 0.12 : 0.07}) smooth(values, std::llround(seconds * fps));
   }
-  // A living face is never quite blank.
+  // A living face is never completely still.
   const auto add = [&](FaceTrack track, std::size_t frame, double value) {
     float& weight = face.tracks[static_cast<std::size_t>(track)][frame];
     weight = std::clamp(weight + static_cast<float>(value), 0.0f, 1.0f);

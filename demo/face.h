@@ -11,7 +11,7 @@ namespace signweave::demo {
 
 struct Timeline;
 
-// What a face does with a sign. PLACEHOLDERS like the hands: no mouthing or expression of LSF.
+// The face during a sign. PLACEHOLDERS like the hands: no mouthing or expression of LSF.
 
 enum class Brows { level, raised, lowered };
 enum class Mouth {
@@ -35,7 +35,7 @@ struct Face {
   Gaze gaze = Gaze::viewer;
 };
 
-/// The face's scalar tracks, weights from 0 to 1 under the names of ARKit's blend shapes.
+/// The scalar tracks of the face: weights from 0 to 1, named as ARKit's blend shapes.
 enum class FaceTrack {
   browInnerUp,
   browOuterUpLeft,
@@ -69,8 +69,8 @@ struct FaceMotion {
   const std::vector<float>& of(FaceTrack track) const { return tracks[static_cast<std::size_t>(track)]; }
 };
 
-/// The face of a timeline: each sign's brows and mouth set in before its stroke and outlast it, neighbours flow into
-/// each other, eyes blink now and then, mostly between signs and always after a sentence.
+/// The face of a timeline: each sign's brows and mouth begin before its stroke and outlast it, neighbours blend into
+/// each other, and the eyes blink occasionally, mostly between signs and always after a sentence.
 FaceMotion face_of(const Timeline& timeline, Random& random);
 
 }  // namespace signweave::demo

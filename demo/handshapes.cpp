@@ -74,7 +74,7 @@ constexpr Row kShapes[kHandshapes] = {
 
 constexpr float kDegree = std::numbers::pi_v<float> / 180.0f;
 
-// The thumb's first bone lies so in the rest pose (signer.cpp); it bends towards the palm and the little finger.
+// Direction of the thumb's first bone in the rest pose (signer.cpp); it bends towards the palm and the little finger.
 const Vector3f kThumbRest = Vector3f(0.030f, -0.010f, 0.026f).normalized();
 const Vector3f kThumbHinge = kThumbRest.cross(Vector3f(0.25f, -0.45f, -0.85f)).normalized();
 
@@ -145,7 +145,7 @@ HandAngles angles_in(const FingerRotations& rotations, Side side) {
   angles[0] = {std::atan2(along.z(), along.x()) / kDegree, -std::asin(std::clamp(along.y(), -1.0f, 1.0f)) / kDegree,
                angle_about(hand[0][1], kThumbHinge), angle_about(hand[0][2], kThumbHinge)};
   for (std::size_t finger = 1; finger < kFingers; ++finger) {
-    // Spread, then flexion: the flexion's axis stays in the palm's plane and shows the spread.
+    // Spread, then flexion: the flexion's axis stays in the palm's plane and reveals the spread.
     const Vector3f hinge = hand[finger][0] * Vector3f::UnitZ();
     const float spread = std::atan2(-hinge.x(), hinge.z());
     const Quaternionf flexion = Quaternionf(AngleAxisf(spread, Vector3f::UnitY())) * hand[finger][0];
@@ -157,7 +157,7 @@ HandAngles angles_in(const FingerRotations& rotations, Side side) {
 
 HandAngles blend(const HandAngles& a, const HandAngles& b, float t) {
   HandAngles result;
-  // How far the hand closes: towards a fist the thumb waits, out of one it goes first.
+  // How far the hand closes: when a fist closes the thumb waits, when it opens the thumb leads.
   float closing = 0;
   for (std::size_t finger = 1; finger < kFingers; ++finger) closing += b[finger][1] - a[finger][1];
   const float thumb_wait = std::clamp(closing / 400.0f, -0.12f, 0.12f);

@@ -8,10 +8,11 @@
 
 namespace signweave::demo {
 
-/// Hand configurations, named for what the hand looks like. They stand in for those of LSF and are none of them.
+/// Hand configurations, named for their appearance. They are placeholders for those of LSF and identical to none of
+/// them.
 enum class Handshape {
   relaxed,     ///< at rest, half open
-  flat,        ///< fingers straight and together, thumb beside them
+  flat,        ///< fingers straight and together, thumb next to them
   spread,      ///< all five apart
   claw,        ///< all five apart and hooked
   fist,        ///< closed, thumb across
@@ -36,10 +37,10 @@ enum class Handshape {
   snap,        ///< thumb touches middle, the others straight
   pinch,       ///< thumb touches index, the others closed
   key,         ///< thumb on the side of the bent index, the others closed
-  beak,        ///< all tips at the thumb's
-  bill,        ///< straight fingers over the thumb, a little apart
+  beak,        ///< all fingertips touch the thumb's
+  bill,        ///< straight fingers over the thumb, slightly apart
   curve,       ///< as around a glass
-  cup,         ///< fingers together and a little bent, as holding water
+  cup,         ///< fingers together and slightly bent, as if holding water
   bent,        ///< flat, bent at the knuckles
   fan,         ///< bent at the knuckles, fingers apart
   folded,      ///< knuckles straight, the other joints closed
@@ -59,10 +60,10 @@ using HandAngles = std::array<std::array<float, kFingerAngles>, kFingers>;
 struct AngleLimits {
   float least, most;  ///< degrees
 };
-/// What a human hand can do, roughly, without the other hand's help. A knuckle goes from 20° backwards to 90°, a middle
-/// joint to 110°, an end joint to 80°; fingers spread by 25° to either side. The thumb's first bone lies between the
-/// index and a right angle to it and reaches out of the palm by 60°; its knuckle bends to 60°, its end from 15°
-/// backwards to 80°.
+/// Approximate range of a human hand without help from the other hand. A knuckle moves from 20° backwards to 90°, a
+/// middle joint to 110°, an end joint to 80°; fingers spread by 25° to either side. The thumb's first bone lies between
+/// the index and a right angle to it and reaches out of the palm by 60°; its knuckle bends to 60°, its end joint from
+/// 15° backwards to 80°.
 AngleLimits limits_of(int finger, int angle) noexcept;
 
 /// A handshape's angles, within the limits.
@@ -70,16 +71,16 @@ const HandAngles& angles_of(Handshape shape) noexcept;
 
 /// The local rotations of one hand's finger joints.
 using FingerRotations = std::array<std::array<Eigen::Quaternionf, kPhalanges>, kFingers>;
-/// Angles on one side.
+/// The rotations for some angles on one side.
 FingerRotations finger_rotations(const HandAngles& angles, Side side);
-/// The angles of rotations that `finger_rotations` made; those of the thumb's first bone as directions.
+/// The angles of rotations made by `finger_rotations`; those of the thumb's first bone as directions.
 HandAngles angles_in(const FingerRotations& rotations, Side side);
 
-/// From a to b, each finger in its own time: `t` is 0 to 1 for the hand, index and middle lead, the thumb leaves a
-/// closed hand first and closes last.
+/// Interpolates from a to b with a timing per finger: `t` is 0 to 1 for the hand; index and middle lead, the thumb
+/// leaves a closed hand first and closes last.
 HandAngles blend(const HandAngles& a, const HandAngles& b, float t);
 
-/// A rotation seen in the mirror x → −x: what the left side does, done by the right.
+/// A rotation mirrored at x → −x: converts a rotation of the left side to the right.
 inline Eigen::Quaternionf mirrored(const Eigen::Quaternionf& rotation) {
   return {rotation.w(), rotation.x(), -rotation.y(), -rotation.z()};
 }

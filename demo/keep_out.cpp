@@ -14,7 +14,7 @@ Vector3f nearest_on(const Capsule& capsule, const Vector3f& point) {
   return capsule.from + along * line;
 }
 
-/// `missing` metres of a clearance wanted: from 0 the push grows smoothly.
+/// The push for a clearance that is too small by `missing` metres: it grows smoothly from 0.
 float softly(float missing, float soft) {
   if (missing <= 0) return 0;
   return missing < soft ? 0.5f * missing * missing / soft : missing - 0.5f * soft;
@@ -36,7 +36,7 @@ float clearance(const Capsule& capsule, const Vector3f& point) {
 }
 
 float too_close(std::span<const Vector3f> one, std::span<const Vector3f> other) {
-  constexpr float kThick = 0.022f;  // from bone to bone where the push sets in
+  constexpr float kThick = 0.022f;  // distance between bones at which the push begins
   float nearest = kThick * kThick;
   for (const Vector3f& a : one) {
     for (const Vector3f& b : other) nearest = std::min(nearest, (a - b).squaredNorm());
@@ -45,7 +45,7 @@ float too_close(std::span<const Vector3f> one, std::span<const Vector3f> other) 
 }
 
 Vector3f push_out(std::span<const Capsule> capsules, std::span<const Vector3f> points) {
-  constexpr float kSoft = 0.016f;  // metres of clearance at which the push sets in
+  constexpr float kSoft = 0.016f;  // metres of clearance at which the push begins
   Vector3f push = Vector3f::Zero();
   for (const Capsule& capsule : capsules) {
     float most = 0;

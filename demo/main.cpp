@@ -1,5 +1,5 @@
-// synthetic_signer: writes the demo corpus: a weather forecast and a list of cities after the paper's section 5.1,
-// and further recordings of the same kinds.
+// synthetic_signer: writes the demo corpus: a weather forecast and a list of cities after the paper's section 5.1, and
+// further recordings of the same kinds.
 
 #include <fmt/format.h>
 
@@ -26,29 +26,29 @@ void write_file(const std::filesystem::path& path, std::string_view text) {
   file.commit();
 }
 
-struct Wanted {
+struct CorpusOptions {
   FrameRate rate;
   std::uint64_t seed = 1;
   double minutes = 44;
   bool sheets = false;
 };
 
-/// One recording after another, so that memory holds one.
-void write_corpus(const std::filesystem::path& folder, const Wanted& wanted) {
+/// Generates one recording after another, so that only one is in memory.
+void write_corpus(const std::filesystem::path& folder, const CorpusOptions& options) {
   std::error_code refused;
   std::filesystem::create_directories(folder, refused);
-  if (refused) throw Error(ErrorCode::io, folder.string() + ": " + refused.message() + "; name a folder you may write");
-  if (wanted.sheets) write_file(folder / "handshapes.svg", demo::handshape_sheet());
+  if (refused) throw Error(ErrorCode::io, folder.string() + ": " + refused.message() + "; name a writable folder");
+  if (options.sheets) write_file(folder / "handshapes.svg", demo::handshape_sheet());
   double seconds = 0;
-  const std::vector<demo::Script> scripts = demo::corpus_scripts(wanted.minutes);
+  const std::vector<demo::Script> scripts = demo::corpus_scripts(options.minutes);
   for (const demo::Script& script : scripts) {
-    const demo::SyntheticRecording recording = demo::make_recording(script, wanted.rate, wanted.seed);
-    const auto path = [&](const char* ending) { return folder / (recording.name + ending); };
+    const demo::SyntheticRecording recording = demo::make_recording(script, options.rate, options.seed);
+    const auto path = [&](const char* extension) { return folder / (recording.name + extension); };
     bvh::write(path(".bvh"), recording.motion, bvh::default_layout(recording.motion.skeleton()));
     eaf::write(path(".eaf"), recording.document);
     write_file(path(".truth.csv"), recording.truth);
     if (!recording.motion.tracks().empty()) write_file(path(".face.csv"), face_csv::write_text(recording.motion));
-    if (wanted.sheets) {
+    if (options.sheets) {
       write_file(path(".svg"), demo::stroke_sheet(recording));
       write_file(path(".sentence.svg"), demo::sentence_sheet(recording, 1));
       write_file(path(".side.svg"), demo::sentence_sheet(recording, 1, 75));
@@ -64,22 +64,23 @@ void write_corpus(const std::filesystem::path& folder, const Wanted& wanted) {
 
 int main(int argc, char** argv) {
   CLI::App app{
-      "Writes a made corpus, meteo and villes and more, each as .bvh, .eaf, .face.csv\n"
-      "and .truth.csv (what is known of how it was made).\n"
+      "Writes a synthetic corpus, meteo and villes and more, each as .bvh, .eaf, .face.csv\n"
+      "and .truth.csv (the ground truth).\n"
       "The shapes are placeholders, not signs of LSF.\n"
       "Example: synthetic_signer out/corpus --seed 7"};
   std::string folder;
-  Wanted wanted;
+  CorpusOptions options;
   std::string rate_text = "100";
-  app.add_option("OUT_FOLDER", folder, "where the files go; made where it does not exist")->required();
-  app.add_option("--seed", wanted.seed, "another seed makes another recording of the same signs")
+  app.add_option("OUT_FOLDER", folder, "output folder; created if it does not exist")->required();
+  app.add_option("--seed", options.seed, "random seed; another seed gives another recording of the same signs")
       ->capture_default_str();
-  app.add_option("--rate", rate_text, "frames a second")->capture_default_str();
-  app.add_option("--minutes", wanted.minutes, "how long all recordings are together; 2 gives meteo and villes alone")
+  app.add_option("--rate", rate_text, "frames per second")->capture_default_str();
+  app.add_option("--minutes", options.minutes, "total length of all recordings; 2 gives meteo and villes only")
       ->capture_default_str()
       ->check(CLI::Range(0.0, 10'000.0));
-  app.add_flag("--sheets", wanted.sheets,
-               "also contact sheets (.svg): every stroke, a sentence from the front and from the side, handshapes");
+  app.add_flag(
+      "--sheets", options.sheets,
+      "also write contact sheets (.svg): every stroke, a sentence from the front and from the side, handshapes");
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -88,10 +89,11 @@ int main(int argc, char** argv) {
   try {
     const std::optional<FrameRate> rate = parse_frame_rate(rate_text);
     if (!rate) {
-      throw Error(ErrorCode::bad_input, "--rate '" + rate_text + "': no frame rate; give frames a second, such as 100");
+      throw Error(ErrorCode::bad_input,
+                  "--rate '" + rate_text + "' is not a frame rate; give frames per second, such as 100");
     }
-    wanted.rate = *rate;
-    write_corpus(folder, wanted);
+    options.rate = *rate;
+    write_corpus(folder, options);
   } catch (const Error& error) {
     fmt::print(stderr, "synthetic_signer: {}\n", error.what());
     return 1;

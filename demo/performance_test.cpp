@@ -1,4 +1,4 @@
-// How the made signer moves: the hands' plan, the face, gaze, breath.
+// How the synthetic signer moves: the hands' plan, face, gaze, breath.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -38,7 +38,7 @@ struct Planned {
   HandPlan plan;
 };
 
-TEST(HandPlan, NeverLeaps) {
+TEST(HandPlan, NeverJumps) {
   const Planned made(meteo());
   for (const Side side : kSides) {
     Vector3f before = made.plan.at(side, 0);
@@ -77,7 +77,7 @@ TEST(HandPlan, TheOtherHandHoldsThroughAOneHandedSignAndDropsBeforeMany) {
   const Planned one_handed(short_script({{"METEO", "NORD", "SUD", "LYON", "BREST", "QUIMPER", "VANNES", "METEO"}}));
   const auto late = static_cast<double>(one_handed.timeline.signs[4].stroke_begin);
   EXPECT_LT((one_handed.plan.at(Side::left, late) - to_model(rest_place(), Side::left)).norm(), 0.03f);
-  // And it drops slowly.
+  // It drops slowly.
   float fastest = 0;
   for (auto frame = one_handed.timeline.signs[0].stroke_end; frame < one_handed.timeline.signs[4].stroke_begin;
        ++frame) {
@@ -94,7 +94,7 @@ TEST(HandPlan, TheRightHandLeadsByTenToFortyMilliseconds) {
   for (const PlacedSign& sign : made.timeline.signs) {
     const double middle = 0.5 * static_cast<double>(sign.stroke_begin + sign.stroke_end);
     const double left = HandPlan::done_in(made.plan.piece_at(Side::left, middle), middle);
-    // When was the right hand as far?
+    // When was the right hand equally far?
     double earlier = middle;
     while (HandPlan::done_in(made.plan.piece_at(Side::right, earlier), earlier) > left) earlier -= 0.1;
     const double lead = (middle - earlier) * 0.01;
@@ -105,7 +105,7 @@ TEST(HandPlan, TheRightHandLeadsByTenToFortyMilliseconds) {
   EXPECT_EQ(looked_at, 6);
 }
 
-TEST(HandPlan, WaysAreCurvedAndFastestBeforeTheirMiddle) {
+TEST(HandPlan, MovementsAreCurvedAndFastestBeforeTheirMiddle) {
   const Planned made(meteo());
   double bent = 0, peak = 0, count = 0;
   for (std::size_t i = 0; i + 1 < made.timeline.signs.size(); ++i) {
@@ -119,8 +119,8 @@ TEST(HandPlan, WaysAreCurvedAndFastestBeforeTheirMiddle) {
     double fastest_at = 0;
     for (int k = 0; begin + k < end; ++k) {
       const double at = begin + k;
-      const Vector3f way = made.plan.at(Side::right, at) - from;
-      aside = std::max(aside, (way - way.dot(line) / line.squaredNorm() * line).norm());
+      const Vector3f offset = made.plan.at(Side::right, at) - from;
+      aside = std::max(aside, (offset - offset.dot(line) / line.squaredNorm() * line).norm());
       const float speed = (made.plan.at(Side::right, at + 1) - made.plan.at(Side::right, at)).norm();
       if (speed > fastest) {
         fastest = speed;
@@ -152,7 +152,7 @@ TEST(HandPlan, TheHandshapeFormsDuringThePreparation) {
               before.shape->shape_end.value_or(before.shape->shape));
     EXPECT_LT(formed(at(before.stroke_end)), 0.05);
     EXPECT_LT(formed(at(sign.begin)), 0.4);
-    EXPECT_GT(formed(at(sign.begin)), 0.0);  // it has begun to let go
+    EXPECT_GT(formed(at(sign.begin)), 0.0);  // it has begun to release
     EXPECT_EQ(formed(at(sign.stroke_begin) - 1), 1);
   }
 }
@@ -176,7 +176,7 @@ class Performance : public testing::Test {
   }
 };
 
-TEST_F(Performance, HasTracksOfEveryFrameFromZeroToOneThatNeverLeap) {
+TEST_F(Performance, HasTracksOfEveryFrameFromZeroToOneThatNeverJump) {
   EXPECT_GE(made().motion.tracks().size(), 18U);
   for (const char* name : {"browInnerUp", "browOuterUpLeft", "browDownRight", "eyeBlinkLeft", "eyeWideRight", "jawOpen",
                            "mouthPucker", "mouthFunnel", "mouthSmileLeft", "mouthPressLeft", "cheekPuff"}) {
@@ -238,7 +238,7 @@ TEST_F(Performance, BeginsBeforeTheStrokeAndOutlastsIt) {
   EXPECT_GE(looked_at, 3);
 }
 
-TEST_F(Performance, BlinksNowAndThenMostlyBetweenStrokes) {
+TEST_F(Performance, BlinksOccasionallyMostlyBetweenStrokes) {
   const std::vector<float>& lid = track("eyeBlinkLeft");
   EXPECT_EQ(lid, track("eyeBlinkRight"));
   int blinks = 0, within = 0;
@@ -273,7 +273,7 @@ double degrees(double radians) {
   return radians * 180 / std::numbers::pi;
 }
 
-TEST_F(Performance, LooksAtTheHandWhereTheSignSaysSoAndAtTheViewerElse) {
+TEST_F(Performance, LooksAtTheHandIfTheSignSaysSoAndOtherwiseAtTheViewer) {
   const Motion& motion = made().motion;
   const Signer signer = make_signer();
   double worst = 0;
@@ -291,7 +291,7 @@ TEST_F(Performance, LooksAtTheHandWhereTheSignSaysSoAndAtTheViewerElse) {
     const Vector3f left = pose.positions[static_cast<std::size_t>(signer.left.hand)];
     const Vector3f hands = acts(*sign.shape, Side::left) ? Vector3f(0.5f * (right + left)) : right;
     if (sign.shape->face.gaze == Gaze::hand) {
-      EXPECT_LT(to(hands), 28) << sign.shape->gloss;  // they have their limits, and look a little above the wrist
+      EXPECT_LT(to(hands), 28) << sign.shape->gloss;  // the eyes have limits, and look slightly above the wrist
       EXPECT_GT(to({0, 1.6f, 2.5f}), 12) << sign.shape->gloss;
       ++at_hand;
     } else {
@@ -313,7 +313,7 @@ TEST_F(Performance, LooksAtTheHandWhereTheSignSaysSoAndAtTheViewerElse) {
   EXPECT_GT(worst, 10.0);
 }
 
-TEST_F(Performance, TheHeadComesAfterTheEyesAndNodsWhereASentenceEnds) {
+TEST_F(Performance, TheHeadFollowsTheEyesAndNodsAtTheEndOfASentence) {
   const Planned plan(meteo());
   Random random(5);
   const std::vector<BodyFrame> body = move_body(plan.timeline, plan.plan, random);
@@ -321,7 +321,7 @@ TEST_F(Performance, TheHeadComesAfterTheEyesAndNodsWhereASentenceEnds) {
   int leaps = 0;
   for (std::size_t i = 30; i + 60 < body.size(); ++i) {
     const auto frame = static_cast<std::int64_t>(i);
-    // A leap of the eyes of more than 15° is over within 80 ms; the head has hardly set out by then.
+    // An eye movement of more than 15° ends within 80 ms; the head has hardly started by then.
     if (down(frame + 8) - down(frame) < 0.26f || down(frame) > 0.15f) continue;
     ++leaps;
     const double before = body[i].head_pitch;
@@ -329,7 +329,7 @@ TEST_F(Performance, TheHeadComesAfterTheEyesAndNodsWhereASentenceEnds) {
     i += 60;
   }
   EXPECT_GE(leaps, 3);
-  // Eyes leap, they do not glide: most of the way within three hundredths of a second.
+  // Eyes jump rather than glide: most of the movement takes under three hundredths of a second.
   float quickest = 0;
   for (std::size_t i = 0; i + 3 < body.size(); ++i) {
     quickest = std::max(quickest, std::acos(std::min(1.0f, body[i].look.dot(body[i + 3].look))));
@@ -344,7 +344,7 @@ TEST_F(Performance, TheHeadComesAfterTheEyesAndNodsWhereASentenceEnds) {
   }
 }
 
-TEST_F(Performance, TheChestBreathesAtTwelveToEighteenAMinute) {
+TEST_F(Performance, TheChestBreathesTwelveToEighteenTimesPerMinute) {
   const Motion& motion = made().motion;
   const Signer signer = make_signer();
   std::vector<double> pitch;
@@ -374,11 +374,11 @@ TEST_F(Performance, TheChestBreathesAtTwelveToEighteenAMinute) {
   EXPECT_GT(best, 0.008);  // radians: about 3 mm at the breastbone
 }
 
-TEST_F(Performance, NothingIsEverQuiteStill) {
+TEST_F(Performance, NothingIsEverCompletelyStill) {
   const Motion& motion = made().motion;
   const Signer signer = make_signer();
   const Timeline& timeline = made().timeline;
-  // Hands at rest between two sentences wander by one or two millimetres, smoothly.
+  // Hands at rest between two sentences drift by one or two millimetres, smoothly.
   double squares = 0;
   double count = 0;
   float quickest = 0;

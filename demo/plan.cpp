@@ -11,13 +11,13 @@ using Eigen::Vector3f;
 using Piece = HandPlan::Piece;
 using End = HandPlan::End;
 
-// How a hand that has nothing to do in the next signs behaves, seconds.
-constexpr double kHoldsFor = 2.6;       ///< it stays where it is for that long where it will be needed again
-constexpr double kWaitsFor = 1.8;       ///< and for that long until the sentence ends
-constexpr double kDropsAfter = 0.25;    ///< otherwise it drops
-constexpr double kDropsIn = 1.15;       ///< slowly
-constexpr double kRisesEarlier = 0.15;  ///< than the other hand, from rest
-constexpr float kLetGo = 0.07f;         ///< a hand that holds sinks a little
+// Behaviour of a hand that is not used by the next signs, in seconds.
+constexpr double kHoldsFor = 2.6;       ///< holds for up to this long if it is needed again
+constexpr double kWaitsFor = 1.8;       ///< holds for up to this long until the sentence ends
+constexpr double kDropsAfter = 0.25;    ///< otherwise drops after this long
+constexpr double kDropsIn = 1.15;       ///< duration of the drop
+constexpr double kRisesEarlier = 0.15;  ///< lead over the other hand when rising from rest
+constexpr float kLetGo = 0.07f;         ///< how far a holding hand sinks
 
 Vector3f place_of(const End& end, Side side) {
   Vector3f rest = rest_place(end.rest);
@@ -40,7 +40,7 @@ double evenly(double t) {
 
 }  // namespace
 
-/// Lays the stretches of one hand end to end.
+/// Joins the pieces of one hand end to end.
 class HandPlan::Builder {
  public:
   Builder(const Script& script, const Timeline& timeline, Side side, Random& random)
@@ -52,7 +52,7 @@ class HandPlan::Builder {
       if (acts(*sign.shape, side_)) {
         const bool neighbour = now_.sign != nullptr && now_.sign + 1 == &sign && !ends_unit(timeline_, i - 1);
         if (!neighbour) wait(frame(sign.begin) - (side_ == Side::left ? kRisesEarlier * fps_ : 0), sign.begin);
-        way(frame(sign.stroke_begin), {.sign = &sign}, sign.begin);
+        move_to(frame(sign.stroke_begin), {.sign = &sign}, sign.begin);
         add(frame(sign.stroke_end), {.sign = &sign, .stroke = 1});
       }
       if (ends_unit(timeline_, i)) finish(i);
@@ -76,8 +76,8 @@ class HandPlan::Builder {
     now_ = to;
   }
 
-  /// A way to somewhere else. `split`: the frame in which the next sign begins.
-  void way(double end, const End& to, std::int64_t split) {
+  /// Adds a movement to another position. `split`: the frame in which the next sign begins.
+  void move_to(double end, const End& to, std::int64_t split) {
     const Vector3f from_place = place_of(now_, side_);
     const Vector3f to_place = place_of(to, side_);
     const bool between = now_.sign != nullptr && to.sign != nullptr;
@@ -86,8 +86,8 @@ class HandPlan::Builder {
     if (begin == at_) return;
     Piece& piece = pieces_.back();
     if (to.sign != nullptr) {
-      // The handshape forms in the preparation: it has left the old one when that begins, and is there a little before
-      // the stroke.
+      // The handshape changes during the preparation: the old one is released by its begin, and the new one is complete
+      // slightly before the stroke.
       const double part = std::clamp((frame(split) - begin) / (end - begin), 0.0, 0.9);
       piece.shape_begin = 0.7 * part;
       piece.shape_end = 1 - 0.12 * (1 - part);
@@ -102,14 +102,14 @@ class HandPlan::Builder {
     }
     piece.bulge.z() += 0.12f * line.norm();
     if (between) {
-      // A quick transition has no time to sink.
+      // In a quick transition there is no time to sink.
       const double seconds = (end - begin) / fps_;
       piece.sink = script_.sink * static_cast<float>(std::clamp((seconds - 0.35) / 0.6, 0.0, 1.0) *
                                                      std::clamp(1 + 0.2 * random_.normal(), 0.6, 1.3));
     }
   }
 
-  /// What a hand does until it is needed again: `until` at the earliest, `sign_begin` at the latest.
+  /// Adds the behaviour of a hand until it is needed again: at the earliest at `until`, at the latest at `sign_begin`.
   void wait(double until, std::int64_t sign_begin) {
     until = std::max(until, at_);
     if (now_.sign != nullptr) {
@@ -131,25 +131,25 @@ class HandPlan::Builder {
 
   void drop(double until, std::int64_t split) {
     add(std::min(at_ + kDropsAfter * fps_, until), now_);
-    way(std::min(at_ + kDropsIn * fps_, until), {.rest = rest_}, split);
+    move_to(std::min(at_ + kDropsIn * fps_, until), {.rest = rest_}, split);
   }
 
-  /// The end of a sentence whose last sign is number i.
+  /// Adds the end of a sentence whose last sign is number i.
   void finish(std::size_t i) {
     rest_ = i + 1 == timeline_.signs.size() ? Rest::hips : Rest::belly;
     const PlacedSign& last = timeline_.signs[i];
     const auto end = frame(last.end);
     if (now_.sign == &last) {
-      way(end, {.rest = rest_}, last.end);
+      move_to(end, {.rest = rest_}, last.end);
     } else if (now_.sign != nullptr) {
       if (frame(last.stroke_end) - at_ < kWaitsFor * fps_) {
         hold(std::max(at_, frame(last.stroke_end)));
-        way(std::max(end, at_ + 0.5 * fps_), {.rest = rest_}, last.end);
+        move_to(std::max(end, at_ + 0.5 * fps_), {.rest = rest_}, last.end);
       } else {
         drop(end, last.end);
       }
     } else if (now_.rest != rest_) {
-      way(std::max(end, at_ + 0.7 * fps_), {.rest = rest_}, last.end);
+      move_to(std::max(end, at_ + 0.7 * fps_), {.rest = rest_}, last.end);
     }
   }
 
@@ -188,7 +188,8 @@ double HandPlan::done_in(const Piece& piece, double frame) {
   if (piece.is_stroke() && keeps_moving(piece.from.sign->shape->movement)) {
     return evenly(t);
   }
-  // Between the curve of least jerk (Flash and Hogan 1985), which dwells at both ends, and a quicker start and stop.
+  // A blend of the minimum-jerk curve (Flash and Hogan 1985), which dwells at both ends, and one with a quicker start
+  // and stop.
   return 0.35 * t * t * t * (10 + t * (6 * t - 15)) + 0.65 * t * t * (3 - 2 * t);
 }
 
@@ -200,7 +201,7 @@ Vector3f HandPlan::at(Side side, double frame) const {
   }
   const Vector3f from = place_of(piece.from, side);
   const Vector3f to = place_of(piece.to, side);
-  const float middle = 4 * done * (1 - done);  // 0 at both ends, where it neither starts nor stops the hand
+  const float middle = 4 * done * (1 - done);  // 0 at both ends, so that it does not affect start and stop
   Vector3f place = from + done * (to - from) + middle * piece.bulge;
   place += piece.sink * middle * middle * (rest_place() - 0.5f * (from + to));
   return to_model(place, side);

@@ -32,7 +32,7 @@ std::vector<double> sample_with(Random& random, std::size_t count, double mean, 
   std::vector<double> values(count, mean);
   if (count < 2) return values;
   for (double& value : values) value = std::exp(0.3 * random.normal());
-  // Raising what fell under the least moves mean and deviation again, so the two steps take turns.
+  // Raising the values below `least` changes mean and deviation again, so the two steps alternate.
   for (int round = 0; round < 200; ++round) {
     const double size = static_cast<double>(count);
     const double middle = std::accumulate(values.begin(), values.end(), 0.0) / size;

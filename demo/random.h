@@ -5,7 +5,7 @@
 
 namespace signweave::demo {
 
-/// Random numbers that are the same on every machine for one seed: the standard library's distributions are not.
+/// Random numbers that are the same on every machine for one seed, unlike the standard library's distributions.
 /// splitmix64 for the bits, the polar method for the normal distribution.
 class Random {
  public:
@@ -22,15 +22,15 @@ class Random {
   std::uint64_t state_;
 };
 
-/// `count` numbers whose own mean and standard deviation are the two given, none under `least`: a draw that leans to
-/// the right as durations do, then shifted and scaled. `least` must lie well under `mean` (two deviations for more than
-/// a handful of numbers, about one for fewer).
+/// `count` numbers with exactly the given mean and standard deviation, none below `least`: drawn from a right-skewed
+/// distribution, as durations are, then shifted and scaled. `least` must be well below `mean` (two deviations for more
+/// than a handful of numbers, about one for fewer).
 std::vector<double> sample_with(Random& random, std::size_t count, double mean, double deviation, double least);
 
 /// Smooth noise over time: a sum of slow sines, so it never jumps and its speed is known.
 class Wander {
  public:
-  /// Frequencies lie in [low, high] hertz; the deviation over a long time is 1.
+  /// Frequencies lie in [low, high] hertz; the long-term deviation is 1.
   Wander(Random& random, double low, double high);
   double at(double seconds) const noexcept;
 

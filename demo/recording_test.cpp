@@ -1,4 +1,4 @@
-// What must hold for every recording that the made signer makes: body, motion, and the truth beside it.
+// Properties of every recording of the synthetic signer: body, motion, and ground truth.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -23,7 +23,7 @@ namespace {
 using Eigen::Quaternionf;
 using Eigen::Vector3f;
 
-/// The two of the paper, and two of the others, which use the rest of the sign table.
+/// The paper's two, and two others, which use the rest of the sign table.
 const SyntheticRecording& recording(const std::string& name) {
   static const std::map<std::string, SyntheticRecording> made = [] {
     std::map<std::string, SyntheticRecording> recordings;
@@ -67,7 +67,7 @@ bool same(const Motion& a, const Motion& b) {
          std::equal(a.translations().begin(), a.translations().end(), b.translations().begin(), b.translations().end());
 }
 
-TEST(MadeSigner, HasAFullBodyWithHandsOfFifteenJoints) {
+TEST(SyntheticSigner, HasAFullBodyWithHandsOfFifteenJoints) {
   const Signer signer = make_signer();
   EXPECT_GE(signer.skeleton->joint_count(), 55U);
   std::set<std::string> names;
@@ -85,7 +85,7 @@ TEST(MadeSigner, HasAFullBodyWithHandsOfFifteenJoints) {
   }
 }
 
-TEST(MadeSigner, EveryChainEndsInATip) {
+TEST(SyntheticSigner, EveryChainEndsInATip) {
   const Signer signer = make_signer();
   std::set<JointIndex> parents;
   for (const Joint& joint : signer.skeleton->joints()) parents.insert(joint.parent);
@@ -96,7 +96,7 @@ TEST(MadeSigner, EveryChainEndsInATip) {
   }
 }
 
-TEST(MadeSigner, IsOneMetreSeventyAndMirroredWithTheLeftAtPlusX) {
+TEST(SyntheticSigner, IsOneMetreSeventyAndMirroredWithTheLeftAtPlusX) {
   const Signer signer = make_signer();
   const ModelPose rest = to_model_space(*signer.skeleton, Motion(signer.skeleton, kRate, 1).pose(0));
   float top = 0;
@@ -115,7 +115,7 @@ TEST(MadeSigner, IsOneMetreSeventyAndMirroredWithTheLeftAtPlusX) {
 }
 
 TEST_P(EveryRecording, IsTheSameForTheSameSeedAndNotForAnother) {
-  if (made().name != "meteo" && made().name != "villes") return;  // made of a part of its script
+  if (made().name != "meteo" && made().name != "villes") return;  // generated from a part of its script
   const Script script = made().name == "meteo" ? meteo() : villes();
   const SyntheticRecording again = make_recording(script, kRate, 1);
   EXPECT_TRUE(same(made().motion, again.motion));
@@ -126,7 +126,7 @@ TEST_P(EveryRecording, IsTheSameForTheSameSeedAndNotForAnother) {
   EXPECT_NE(made().truth, other.truth);
 }
 
-TEST(OtherRates, GiveTheSameSigningInOtherFrames) {
+TEST(OtherRates, GiveTheSameSigningAtOtherRates) {
   const Script script{.name = "short",
                       .units = {{"BONJOUR", "METEO", "NORD"}, {"MARSEILLE", "NEIGE"}},
                       .transition_mean = 735ms,
@@ -173,7 +173,7 @@ TEST_P(EveryRecording, KeepsItsBoneLengths) {
   }
 }
 
-TEST_P(EveryRecording, ComesBackFromItsFiles) {
+TEST_P(EveryRecording, IsReadBackFromItsFiles) {
   const Motion& motion = made().motion;
   const std::string text = bvh::write_text(motion, bvh::default_layout(motion.skeleton()));
   const bvh::File read = bvh::read_text("made.bvh", text);
@@ -194,7 +194,7 @@ TEST_P(EveryRecording, ComesBackFromItsFiles) {
   for (std::size_t i = 0; i < document.tiers.size(); ++i) EXPECT_EQ(document.tiers[i], made().document.tiers[i]);
 }
 
-TEST_P(EveryRecording, MovesItsHandsUnderFourMetresASecondAndWithoutJerks) {
+TEST_P(EveryRecording, MovesItsHandsUnderFourMetresPerSecondAndWithoutJerks) {
   const Motion& motion = made().motion;
   const Skeleton& skeleton = motion.skeleton();
   const Signer signer = make_signer();
@@ -225,7 +225,7 @@ TEST_P(EveryRecording, MovesItsHandsUnderFourMetresASecondAndWithoutJerks) {
   EXPECT_LT(fastest_hand, 4.0);
   EXPECT_GT(fastest_hand, 0.8);        // it does sign
   EXPECT_LT(fastest, 8.0);             // fingertips turn with the wrist; a jump of 25 cm would be 25 m/s
-  EXPECT_LT(hardest, 120.0) << where;  // a step in velocity shows here: 1.2 m/s from one frame to the next
+  EXPECT_LT(hardest, 120.0) << where;  // reveals a step in velocity of 1.2 m/s between frames
 }
 
 TEST_P(EveryRecording, KeepsTheFeetOnTheGroundAndTheHeadUp) {
@@ -247,7 +247,7 @@ TEST_P(EveryRecording, KeepsTheFeetOnTheGroundAndTheHeadUp) {
   }
 }
 
-TEST_P(EveryRecording, BendsElbowsWristsAndForearmsOnlyAsFarAsTheyGo) {
+TEST_P(EveryRecording, KeepsElbowsWristsAndForearmsWithinTheirLimits) {
   const Motion& motion = made().motion;
   const Signer signer = make_signer();
   for (std::int64_t frame = 0; frame < motion.frame_count(); ++frame) {
@@ -256,15 +256,15 @@ TEST_P(EveryRecording, BendsElbowsWristsAndForearmsOnlyAsFarAsTheyGo) {
       const auto local = [&](JointIndex joint) { return pose.rotations[static_cast<std::size_t>(joint)]; };
       const SideJoints& joints = signer.side(side);
       const Vector3f along(sign_of(side), 0, 0);
-      // The elbow bends one way: forward in the T-pose.
+      // The elbow bends in one direction: forward in the T-pose.
       const Vector3f fore_arm = local(joints.fore_arm) * along;
       ASSERT_GT(fore_arm.z(), 0) << frame;
       ASSERT_NEAR(fore_arm.y(), 0, 1e-3f) << frame;
       ASSERT_GT(fore_arm.x() * sign_of(side), -0.88f) << frame;  // at most about 150° of flexion
-      // The wrist's swing has no part about the forearm's length.
+      // The wrist's swing has no component about the forearm's axis.
       const Quaternionf wrist = local(joints.hand);
       ASSERT_NEAR(wrist.x(), 0, 2e-3f) << frame;
-      ASSERT_LT(wrist.angularDistance(Quaternionf::Identity()), 1.34f) << frame;  // 70°, and a little unrest
+      ASSERT_LT(wrist.angularDistance(Quaternionf::Identity()), 1.34f) << frame;  // 70°, plus some idle motion
     }
   }
 }
@@ -297,7 +297,7 @@ TEST_P(EveryRecording, ReachesTheWristTargetsOfItsTruth) {
     ++rows;
     if (fields[1] == "Retraction") continue;
     ++strokes;
-    // The table's own words, not the plan's: the stroke begins and ends where the description says for this token.
+    // Taken from the table, not the plan: the stroke begins and ends where the description of this token specifies.
     const SignShape& sign = *placed->shape;
     const float done = fields[1] == "Stroke" ? 1 : 0;
     EXPECT_LT((wrist - to_model(stroke_place(sign, side, done, placed->token), side)).norm(), 0.02f) << line;
@@ -316,7 +316,7 @@ TEST_P(EveryRecording, ReachesTheWristTargetsOfItsTruth) {
   EXPECT_GE(strokes, 72);
 }
 
-/// How deep a point is in a round bar, metres; negative outside.
+/// How deep a point is inside a capsule, metres; negative outside.
 float depth_in(const Vector3f& from, const Vector3f& to, float radius, const Vector3f& point) {
   const Vector3f line = to - from;
   const float along = std::clamp((point - from).dot(line) / line.squaredNorm(), 0.0f, 1.0f);
@@ -357,7 +357,7 @@ TEST_P(EveryRecording, KeepsTheHandsOutOfTrunkAndHeadAndOnTheirSides) {
   }
 }
 
-TEST_P(EveryRecording, KeepsOneHandOutOfTheOther) {
+TEST_P(EveryRecording, KeepsTheHandsOutOfEachOther) {
   const Motion& motion = made().motion;
   const Signer signer = make_signer();
   for (std::int64_t frame = 0; frame < motion.frame_count(); frame += 3) {
@@ -374,14 +374,14 @@ TEST_P(EveryRecording, KeepsOneHandOutOfTheOther) {
         }
       }
     }
-    // From bone to bone: fingers are about 1.5 cm thick and yield a little.
+    // From bone to bone: fingers are about 1.5 cm thick and yield slightly.
     for (const Vector3f& left : points[0]) {
       for (const Vector3f& right : points[1]) ASSERT_GT((left - right).norm(), 0.009f) << frame;
     }
   }
 }
 
-TEST_P(EveryRecording, BendsFingersOnlyAsFarAsTheyGo) {
+TEST_P(EveryRecording, KeepsFingersWithinTheirLimits) {
   const Motion& motion = made().motion;
   const Signer signer = make_signer();
   for (std::int64_t frame = 0; frame < motion.frame_count(); ++frame) {

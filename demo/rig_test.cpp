@@ -11,7 +11,7 @@ Motion at_rest(const std::shared_ptr<const Skeleton>& skeleton) {
   return Motion(skeleton, {100, 1}, 1);
 }
 
-TEST(SignersRig, IsKnownToTheLastFinger) {
+TEST(SignersRig, IsRecognisedDownToTheLastFinger) {
   const Signer signer = make_signer();
   const RigMap map = map_rig(at_rest(signer.skeleton));
   EXPECT_EQ(map.convention, "MotionBuilder");
@@ -25,7 +25,7 @@ TEST(SignersRig, IsKnownToTheLastFinger) {
             signer.left.fingers[3][1]);
 }
 
-TEST(SignersRig, IsTheSameByShapeAloneWithLessConfidence) {
+TEST(SignersRig, IsRecognisedByShapeAloneWithLessConfidence) {
   const Signer signer = make_signer();
   std::vector<Joint> joints(signer.skeleton->joints().begin(), signer.skeleton->joints().end());
   for (std::size_t i = 0; i < joints.size(); ++i) joints[i].name = "q" + std::to_string(i * 31 % 97);
@@ -36,7 +36,7 @@ TEST(SignersRig, IsTheSameByShapeAloneWithLessConfidence) {
   const RigMap by_shape = map_rig(nameless);
   for (std::size_t i = 0; i < kPartCount; ++i) {
     const auto part = static_cast<Part>(i);
-    if (part == Part::jaw || part == Part::left_eye || part == Part::right_eye) continue;  // shape does not tell them
+    if (part == Part::jaw || part == Part::left_eye || part == Part::right_eye) continue;  // not recognisable by shape
     EXPECT_EQ(by_shape[part].joint, by_name[part].joint) << name_of(part);
     if (by_shape.has(part)) {
       EXPECT_LT(by_shape[part].confidence, by_name[part].confidence) << name_of(part);

@@ -11,16 +11,16 @@
 namespace signweave::demo {
 namespace {
 
-/// What lies between two strokes.
+/// The transition between two strokes.
 struct Junction {
   std::size_t before = 0;   ///< index of the sign that ends here
-  bool rest = false;        ///< the hands rest between
-  double way = 0;           ///< metres that the farther hand travels
+  bool rest = false;        ///< the hands rest in between
+  double path = 0;          ///< metres travelled by the hand that moves farther
   double seconds = 0;       ///< retraction and preparation together
-  double retraction = 0.5;  ///< its part of that
+  double retraction = 0.5;  ///< its share of that
 };
 
-/// The frames on whole milliseconds: every how many frames, and how many seconds those are.
+/// Frames that fall on whole milliseconds: the number of frames per step, and its seconds.
 struct Grid {
   std::int64_t frames = 1;
   double seconds = 0;
@@ -43,34 +43,34 @@ Eigen::Vector3f place_of(const SignShape& sign, Side side, float done) {
   return acts(sign, side) ? stroke_place(sign, side, done) : rest_place();
 }
 
-/// Of the hands that the next sign needs; one that it does not may take its time.
-double way_between(const SignShape& from, const SignShape& to) {
-  float way = 0;
+/// Maximum over the hands that the next sign needs; a hand that it does not need has no influence.
+double path_between(const SignShape& from, const SignShape& to) {
+  float path = 0;
   for (const Side side : kSides) {
-    if (acts(to, side)) way = std::max(way, (stroke_place(to, side, 0) - place_of(from, side, 1)).norm());
+    if (acts(to, side)) path = std::max(path, (stroke_place(to, side, 0) - place_of(from, side, 1)).norm());
   }
-  return static_cast<double>(way);
+  return static_cast<double>(path);
 }
 
-double way_from_rest(const SignShape& sign, float done, Rest rest = Rest::belly) {
-  float way = 0;
+double path_from_rest(const SignShape& sign, float done, Rest rest = Rest::belly) {
+  float path = 0;
   for (const Side side : kSides) {
-    if (acts(sign, side)) way = std::max(way, (stroke_place(sign, side, done) - rest_place(rest)).norm());
+    if (acts(sign, side)) path = std::max(path, (stroke_place(sign, side, done) - rest_place(rest)).norm());
   }
-  return static_cast<double>(way);
+  return static_cast<double>(path);
 }
 
-/// Durations with the script's mean and deviation, the longer ones for the longer ways, not strictly: a signer is no
-/// clock.
+/// Durations with the script's mean and deviation. Longer paths get longer durations, but not strictly: a signer is not
+/// a clock.
 void give_durations(const std::vector<Junction*>& junctions, const Script& script, Random& random, double least) {
-  // Between the deviation over n and the one over n − 1, so that either reading finds the paper's figure.
+  // Between the deviation over n and the one over n − 1, so that either definition gives the paper's figure.
   const auto count = static_cast<double>(junctions.size());
   const double deviation = Seconds(script.transition_deviation).count() * (1 - 0.25 / count);
   std::vector<double> durations =
       sample_with(random, junctions.size(), Seconds(script.transition_mean).count(), deviation, least);
   std::sort(durations.begin(), durations.end());
   std::vector<std::pair<double, Junction*>> order;
-  for (Junction* junction : junctions) order.emplace_back(junction->way + 0.08 * random.normal(), junction);
+  for (Junction* junction : junctions) order.emplace_back(junction->path + 0.08 * random.normal(), junction);
   std::sort(order.begin(), order.end(), [](const auto& a, const auto& b) {
     return a.first != b.first ? a.first < b.first : a.second->before < b.second->before;
   });
@@ -83,15 +83,15 @@ double stroke_seconds(const SignShape& sign, const Token& token) {
   for (const Side side : kSides) {
     if (acts(sign, side)) length = std::max(length, stroke_length(sign, side, token));
   }
-  // A longer way takes longer, a tenth of a second for 12 cm, and at most some 2.2 m/s in its middle; nobody turns or
-  // bends a wrist to and fro more than four times a second.
+  // A longer path takes longer, a tenth of a second for 12 cm, with at most about 2.2 m/s in its middle; a wrist turns
+  // or bends back and forth at most four times per second.
   const double turns = sign.movement == Movement::repeated ? 0 : times_of(sign, token);
   const double seconds =
       std::max({0.38 + 0.85 * static_cast<double>(length), 1.875 * static_cast<double>(length) / 2.2, 0.25 * turns});
   return std::clamp(seconds, 0.38, 0.74);
 }
 
-/// `quick` is the shorter of the transitions before and after, seconds.
+/// `quick` is the shorter of the transitions before and after, in seconds.
 Token draw_token(const SignShape& sign, double quick, Random& random) {
   Token token;
   const auto within = [&](double deviation, double most) {
@@ -107,7 +107,7 @@ Token draw_token(const SignShape& sign, double quick, Random& random) {
   Eigen::Vector3f shift;
   for (float& along : shift) along = within(0.008, 0.02);
   token.shift = shift * std::min(1.0f, 0.02f / std::max(shift.norm(), 1e-6f));
-  // In a hurry small movements shrink and one of several repetitions is left out.
+  // In a quick context small movements shrink and one of several repetitions is omitted.
   token.small = static_cast<float>(std::clamp(0.72 + 0.28 * (quick - 0.45) / 0.45, 0.72, 1.0));
   token.fewer = quick < 0.6 ? 1 : 0;
   for (int round = 0; round < 6 && !within_reach(sign, token); ++round) {
@@ -118,7 +118,7 @@ Token draw_token(const SignShape& sign, double quick, Random& random) {
 }
 
 double seconds_of_edge(const SignShape& sign, float done) {  // from or to the recording's first and last rest
-  return std::max(0.55, 1.875 * way_from_rest(sign, done, Rest::hips) / 1.6);
+  return std::max(0.55, 1.875 * path_from_rest(sign, done, Rest::hips) / 1.6);
 }
 
 constexpr double kFirstRest = 1.2;  // seconds
@@ -146,8 +146,8 @@ Timeline schedule(const Script& script, FrameRate rate, Random& random) {
       if (shapes.size() == 1) continue;
       Junction junction{.before = shapes.size() - 2, .rest = i == 0};
       const SignShape& from = *shapes[junction.before];
-      junction.way =
-          junction.rest ? way_from_rest(from, 1) + way_from_rest(*shapes.back(), 0) : way_between(from, *shapes.back());
+      junction.path = junction.rest ? path_from_rest(from, 1) + path_from_rest(*shapes.back(), 0)
+                                    : path_between(from, *shapes.back());
       junctions.push_back(junction);
     }
   }
@@ -158,7 +158,7 @@ Timeline schedule(const Script& script, FrameRate rate, Random& random) {
   give_durations(across, script, random, 0.66 * Seconds(script.transition_mean).count());
   for (Junction& junction : junctions) {
     junction.retraction = std::clamp(0.5 + 0.06 * random.normal(), 0.38, 0.62);
-    if (junction.rest) junction.retraction = way_from_rest(*shapes[junction.before], 1) / junction.way;
+    if (junction.rest) junction.retraction = path_from_rest(*shapes[junction.before], 1) / junction.path;
   }
 
   Random tokens(random.bits());
@@ -168,7 +168,7 @@ Timeline schedule(const Script& script, FrameRate rate, Random& random) {
   for (std::size_t i = 0; i < shapes.size(); ++i) {
     const Junction* before = i == 0 ? nullptr : &junctions[i - 1];
     const Junction* after = i + 1 == shapes.size() ? nullptr : &junctions[i];
-    // Retraction and preparation are cut from one rounded sum, so that rounding does not add up in it.
+    // Retraction and preparation are split from one rounded sum, so that rounding errors do not add up.
     const auto whole = [&](const Junction& junction) { return grid.steps(junction.seconds); };
     const auto retraction = [&](const Junction& junction) {
       return grid.steps(junction.seconds * junction.retraction);

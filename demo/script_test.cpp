@@ -1,4 +1,4 @@
-// Timing and annotation of the made corpus: what the paper says of its two sequences.
+// Timing and annotation of the synthetic corpus: the paper's figures for its two sequences.
 
 #include "demo/script.h"
 
@@ -44,7 +44,7 @@ Spread spread_of(const std::vector<double>& values) {
   return spread;
 }
 
-/// Retraction plus preparation of neighbours, milliseconds, from the document as anybody would read it.
+/// Retraction plus preparation of neighbours, milliseconds, computed from the document only.
 std::vector<double> transitions(const AnnotationDocument& document, bool across_rests) {
   std::vector<double> durations;
   const auto& phases = document.find_tier("Phase")->annotations;
@@ -65,7 +65,7 @@ TEST(Meteo, EndsWithTheSequenceThatThePaperPrints) {
   ASSERT_GE(glosses.size(), printed.size());
   EXPECT_THAT(std::vector(glosses.end() - static_cast<std::ptrdiff_t>(printed.size()), glosses.end()),
               testing::ElementsAreArray(printed));
-  // The units before leave the token numbers of the scenarios as they are.
+  // The units before do not change the token numbers of the scenarios.
   const std::set<std::string_view> scenario(printed.begin(), printed.end());
   for (std::size_t i = 0; i + printed.size() < glosses.size(); ++i) EXPECT_FALSE(scenario.contains(glosses[i]));
 }
@@ -100,7 +100,7 @@ TEST_P(EveryScript, HasTheTransitionsOfThePaper) {
   const Made made(script(), seed());
   const double mean = made.name == "meteo" ? 735 : 1064;
   const double deviation = made.name == "meteo" ? 224 : 289;
-  // Whether a reader counts the pairs with a rest between or not, the figures are the paper's.
+  // The figures are the paper's, whether or not pairs with a rest in between are counted.
   for (const bool across_rests : {false, true}) {
     const std::vector<double> durations = transitions(made.document, across_rests);
     const Spread spread = spread_of(durations);
@@ -161,7 +161,7 @@ TEST_P(EveryScript, HasNoGapInsideAUnitAndARestBetweenUnits) {
   }
 }
 
-TEST(Corpus, SaysThatItsShapesAreNotLsf) {
+TEST(Corpus, StatesThatItsShapesAreNotLsf) {
   const AnnotationDocument document = make_recording(villes(), kRate, 1).document;
   const auto placeholder = std::find_if(document.properties.begin(), document.properties.end(),
                                         [](const auto& property) { return property.first == "signweave:placeholder"; });
@@ -184,12 +184,12 @@ TEST(Schedule, KeepsBoundsOnFramesAndMillisecondsAtOtherRates) {
   }
 }
 
-TEST(Schedule, RefusesARateWhoseFramesSeldomMeetMilliseconds) {
+TEST(Schedule, RejectsARateWhoseFramesSeldomFallOnMilliseconds) {
   Random random(3);
   EXPECT_THROW(schedule(meteo(), FrameRate{30000, 1001}, random), Error);
 }
 
-RC_GTEST_PROP(SampleWith, HitsMeanAndDeviationAboveTheLeast, (std::uint64_t seed)) {
+RC_GTEST_PROP(SampleWith, HasMeanAndDeviationAboveTheLeast, (std::uint64_t seed)) {
   Random random(seed);
   const std::size_t count = *rc::gen::inRange<std::size_t>(10, 60);
   const std::vector<double> values = sample_with(random, count, 0.735, 0.224, 0.36);
@@ -201,12 +201,12 @@ RC_GTEST_PROP(SampleWith, HitsMeanAndDeviationAboveTheLeast, (std::uint64_t seed
 
 TEST(RandomNumbers, AreTheSameOnEveryMachine) {
   Random random(42);
-  // splitmix64, as its authors publish it.
+  // splitmix64, as published by its authors.
   EXPECT_EQ(random.bits(), 13679457532755275413ull);
   EXPECT_EQ(random.bits(), 2949826092126892291ull);
 }
 
-TEST(RandomNumbers, AreNormalWhereAskedFor) {
+TEST(RandomNumbers, AreNormalIfRequested) {
   Random random(7);
   std::vector<double> values(20'000);
   for (double& value : values) value = random.normal();

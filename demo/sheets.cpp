@@ -56,13 +56,13 @@ std::string stroke_sheet(const SyntheticRecording& recording) {
 }
 
 std::string sentence_sheet(const SyntheticRecording& recording, std::size_t sentence, double turn,
-                           double figures_a_second) {
+                           double figures_per_second) {
   ContactSheetOptions options;
   options.columns = 10;
   options.note = kNote;
   options.turn = turn;
   const Timeline& timeline = recording.timeline;
-  const double step = std::max(1.0, timeline.rate.hertz() / figures_a_second);
+  const double step = std::max(1.0, timeline.rate.hertz() / figures_per_second);
   std::size_t number = 0;
   std::vector<const PlacedSign*> signs;
   for (std::size_t i = 0; i < timeline.signs.size(); ++i) {

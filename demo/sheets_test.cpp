@@ -1,4 +1,4 @@
-// Contact sheets of what was made.
+// Contact sheets of generated recordings.
 
 #include "demo/sheets.h"
 

@@ -1,7 +1,7 @@
 #include "demo/signs.h"
 
-// The table: one row a sign, read as a sentence. Its words are explained in demo/signs.h.
-// PLACEHOLDERS, invented so that they move like signing. No row describes a sign of LSF.
+// The table: one row per sign, read as a sentence. Its words are explained in demo/signs.h. PLACEHOLDERS, invented to
+// move like signing. No row describes a sign of LSF.
 
 namespace signweave::demo {
 namespace {
@@ -13,7 +13,7 @@ using enum Gaze;
 using enum Hands;
 using enum Movement;
 
-/// Eigen's constructors are not constexpr for a table, and a literal reads better with one letter.
+/// Eigen's constructors are not constexpr, and a one-letter function makes literals easier to read.
 Vector3f v(float x, float y, float z) {
   return {x, y, z};
 }
@@ -206,7 +206,7 @@ const SignShape kTable[] = {
     {.gloss = "VINGT", .face = {level, wow}, .shape = Handshape::pinch, .shape_end = Handshape::corner, .palm = v(-0.5f, 0, 0.8f), .fingers = v(-0.1f, 1, 0.3f),
      .place = v(0.19f, 0.01f, 0.25f), .move = v(0.02f, 0.0f, 0.04f)},
 
-    // Verbs and pointing. Where INVITER begins and ends is its grammar.
+    // Verbs and pointing. The begin and end of INVITER express its grammar.
     {.gloss = "INVITER", .face = {raised, glad, hand}, .shape = Handshape::cup, .palm = v(-0.3f, 1, -0.1f), .fingers = v(-0.2f, 0.1f, 1),
      .palm_end = v(-0.2f, 0.8f, -0.5f), .fingers_end = v(-0.7f, 0.4f, 0.3f),
      .place = v(0.20f, -0.05f, 0.36f), .move = v(-0.06f, -0.03f, -0.17f), .movement = arc, .size = 0.03f, .side = kDown},

@@ -8,7 +8,7 @@ namespace {
 
 using Eigen::Vector3f;
 
-/// Collects joints by their place in the rest pose, which is easier to check against a body than offsets are.
+/// Collects joints by their position in the rest pose, which is easier to check against a body than offsets are.
 class Builder {
  public:
   JointIndex add(std::string name, JointIndex parent, const Vector3f& place) {

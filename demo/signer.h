@@ -7,7 +7,7 @@
 
 namespace signweave::demo {
 
-/// Which side of the body. The signer faces +Z, so the left side is +X.
+/// Side of the body. The signer faces +Z, so the left side is +X.
 enum class Side { left, right };
 inline constexpr std::array kSides = {Side::left, Side::right};
 /// +1 for the left, −1 for the right: the sign of x on that side.
@@ -32,9 +32,9 @@ struct SideJoints {
   JointIndex eye;
 };
 
-/// The made signer's body: 56 joints of a person of 1.70 m in metres, standing at the origin, facing +Z, in a T-pose
-/// with the palms down when every rotation is the identity. Names are those of common character rigs (Hips,
-/// LeftForeArm, LeftHandThumb1, …).
+/// The synthetic signer's body: 56 joints of a person of 1.70 m in metres, standing at the origin, facing +Z. When
+/// every rotation is the identity it is in a T-pose with the palms down. Names are those of common character rigs
+/// (Hips, LeftForeArm, LeftHandThumb1, …).
 struct Signer {
   std::shared_ptr<const Skeleton> skeleton;
   JointIndex hips, spine, spine1, spine2, neck, neck1, head, jaw;
@@ -43,7 +43,7 @@ struct Signer {
   const SideJoints& side(Side which) const noexcept { return which == Side::left ? left : right; }
   /// From a finger's last joint to its tip, left hand, metres.
   Eigen::Vector3f finger_tip(std::size_t finger) const;
-  /// Where a joint is in the rest pose, metres, model space.
+  /// Position of a joint in the rest pose, metres, model space.
   Eigen::Vector3f rest_position(JointIndex joint) const;
 };
 

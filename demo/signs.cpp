@@ -17,7 +17,7 @@ using enum Movement;
 
 constexpr float kPi = std::numbers::pi_v<float>;
 
-/// To and fro and to: 0 at the begin, 1 at the end, each way back a little shorter than the way there.
+/// Back and forth: 0 at the begin, 1 at the end, each return slightly shorter than the movement out.
 float swings(int times, float shortened, float done) {
   const float at = std::min(done, 1.0f) * static_cast<float>(2 * times - 1);
   const float away = 0.5f - 0.5f * std::cos(kPi * at);
@@ -47,7 +47,7 @@ Vector3f stroke_place(const SignShape& sign, Side side, float done, const Token&
   }
   const bool behind = side == Side::left && sign.hands == alternating;
   const float size = token.size * (side == Side::left ? token.other_size : 1.0f);
-  // Larger and smaller about the middle of the movement, so that neither end strays far.
+  // Scaled about the middle of the movement, so that neither end moves far.
   const Vector3f move = size * sign.move;
   const Vector3f place = sign.place + 0.5f * (sign.move - move) + token.shift;
   const float along = behind ? 1.0f - done : done;

@@ -10,14 +10,14 @@
 
 namespace signweave::demo {
 
-// Places and directions are told of the hand that acts, so that one description serves both sides: x away from the
-// middle of the body, y up, z forward. Places are the wrist's, in metres, from the middle of the line between the
-// shoulders. For scale: chin y 0.12, eyes 0.20, top of the head 0.31; waist −0.35; chest and face end at z 0.11; the
-// shoulder is at x 0.175 and an arm reaches 0.53 from it.
+// Positions and directions are relative to the acting hand, so that one description serves both sides: x away from the
+// middle of the body, y up, z forward. Positions are those of the wrist, in metres, from the middle of the line between
+// the shoulders. For scale: chin y 0.12, eyes 0.20, top of the head 0.31; waist −0.35; chest and face end at z 0.11;
+// the shoulder is at x 0.175 and an arm reaches 0.53 from it.
 
 enum class Hands {
   one,          ///< the right hand; the left rests
-  mirrored,     ///< both, in the mirror
+  mirrored,     ///< both, mirrored
   alternating,  ///< both, the left half a movement behind
   on_base,      ///< the right acts, the left holds `base`
 };
@@ -25,30 +25,30 @@ enum class Hands {
 enum class Movement {
   straight,  ///< from place to place + move
   arc,       ///< the same, bulging by `size` towards `side`
-  circle,    ///< turns of radius `size` on the way, in the plane of `side` and up (or forward, where side is up)
-  repeated,  ///< there and back and there again: `times` strokes towards place + move, each way back a little shorter
-  zigzag,    ///< straight, going `times` times to and fro by `size` along `side`
-  flutter,   ///< straight, with playing fingers
-  twist,     ///< straight, the forearm turning to and fro `times` times
-  nod,       ///< straight, the wrist bending to and fro `times` times
+  circle,    ///< circles of radius `size` along the path, in the plane of `side` and up (or forward if `side` is up)
+  repeated,  ///< there and back repeatedly: `times` strokes towards place + move, each return slightly shorter
+  zigzag,    ///< straight, oscillating `times` times by `size` along `side`
+  flutter,   ///< straight, with fluttering fingers
+  twist,     ///< straight, the forearm twisting back and forth `times` times
+  nod,       ///< straight, the wrist bending back and forth `times` times
 };
 
 /// A hand that holds still.
 struct Hold {
   Handshape shape = Handshape::flat;
-  Eigen::Vector3f palm, fingers;  ///< where the palm faces and the fingers point
+  Eigen::Vector3f palm, fingers;  ///< directions the palm faces and the fingers point
   Eigen::Vector3f place;
 };
 
-/// How one sign is made. PLACEHOLDERS: invented for this demo to move like signing. No sign here is one of LSF.
+/// The form of one sign. PLACEHOLDERS: invented for this demo to move like signing. No sign here is one of LSF.
 struct SignShape {
   std::string_view gloss;
   Face face = {};
   Hands hands = Hands::one;
   Handshape shape = Handshape::flat;
-  std::optional<Handshape> shape_end = {};                         ///< where the shape changes during the stroke
+  std::optional<Handshape> shape_end = {};                         ///< if the shape changes during the stroke
   Eigen::Vector3f palm, fingers;                                   ///< at the stroke's begin
-  std::optional<Eigen::Vector3f> palm_end = {}, fingers_end = {};  ///< where the orientation changes during the stroke
+  std::optional<Eigen::Vector3f> palm_end = {}, fingers_end = {};  ///< if the orientation changes during the stroke
   Eigen::Vector3f place;                                           ///< at the stroke's begin
   Eigen::Vector3f move;                                            ///< to the stroke's end
   Movement movement = Movement::straight;
@@ -61,19 +61,19 @@ struct SignShape {
 /// Every sign that the demo knows, once each.
 std::span<const SignShape> sign_table();
 
-/// The sign of a gloss. Throws Error{not_found} where the table lacks it.
+/// The sign of a gloss. Throws Error{not_found} if the table lacks it.
 const SignShape& sign_for(std::string_view gloss);
 
-/// True where that side does something in the sign.
+/// Whether that side acts in the sign.
 bool acts(const SignShape& sign, Side side) noexcept;
 
-/// How one token differs from its description: no two are alike.
+/// The variation of one token relative to its description: no two tokens are alike.
 struct Token {
   float size = 1;            ///< of the movement, 0.85 to 1.15
-  float other_size = 1;      ///< the left hand's beside the right one's, 0.9 to 1: the dominant hand does more
-  float small = 1;           ///< of what is repeated, circles or shakes; under 1 in a quick context
-  int fewer = 0;             ///< repetitions left out in a quick context
-  double lag = 0;            ///< seconds by which the left hand is behind in the middle of a movement
+  float other_size = 1;      ///< left hand relative to right hand, 0.9 to 1: the dominant hand moves more
+  float small = 1;           ///< size of repeated, circling or shaking movements; below 1 in a quick context
+  int fewer = 0;             ///< repetitions omitted in a quick context
+  double lag = 0;            ///< seconds by which the left hand lags in the middle of a movement
   float turn = 0, bend = 0;  ///< radians by which forearm and wrist differ
   Eigen::Vector3f shift = Eigen::Vector3f::Zero();  ///< of the whole stroke, metres, at most 2 cm
 };
@@ -81,17 +81,17 @@ struct Token {
 /// How often a token's movement is repeated.
 int times_of(const SignShape& sign, const Token& token) noexcept;
 
-/// Where the wrist of a side is when a fraction of the stroke is done, in the coordinates above (x away from the
+/// Position of the wrist of a side when a fraction of the stroke is done, in the coordinates above (x away from the
 /// middle on that side). For a side that acts.
 Eigen::Vector3f stroke_place(const SignShape& sign, Side side, float done, const Token& token = {});
 
-/// The same in metres of model space, which is where the recordings put it.
+/// The same in metres of model space, the space of the recordings.
 Eigen::Vector3f to_model(const Eigen::Vector3f& place, Side side);
 
-/// How far the wrist travels in the stroke, metres.
+/// Length of the wrist's path in the stroke, metres.
 float stroke_length(const SignShape& sign, Side side, const Token& token = {});
 
-/// True where every place of the stroke lies within an arm's reach, before chest and face, and on its own side.
+/// Whether every position of the stroke lies within an arm's reach, in front of chest and face, and on its own side.
 bool within_reach(const SignShape& sign, const Token& token = {});
 
 }  // namespace signweave::demo

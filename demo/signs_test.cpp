@@ -1,4 +1,4 @@
-// The sign table, handshapes, tokens: what the shapes are and how tokens differ.
+// The sign table, handshapes, tokens: the shapes, and how tokens differ.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -37,7 +37,7 @@ TEST(SignTable, HasEveryGlossOnceAndEveryPlaceWithinReach) {
   EXPECT_THROW(sign_for("NO-SUCH-SIGN"), Error);
 }
 
-TEST(SignTable, UsesWhatItsWordsOffer) {
+TEST(SignTable, UsesAllFeaturesOfADescription) {
   std::set<Handshape> shapes;
   std::set<Movement> movements;
   std::set<Mouth> mouths;
@@ -54,7 +54,7 @@ TEST(SignTable, UsesWhatItsWordsOffer) {
     ++brows[sign.face.brows];
     to_the_hand += sign.face.gaze == Gaze::hand ? 1 : 0;
   }
-  EXPECT_EQ(shapes.size() + 1, static_cast<std::size_t>(kHandshapes));  // all but the relaxed one
+  EXPECT_EQ(shapes.size() + 1, static_cast<std::size_t>(kHandshapes));  // all except the relaxed one
   EXPECT_EQ(movements.size(), 8U);
   EXPECT_GE(mouths.size(), 10U);
   EXPECT_EQ(hands.size(), 4U);
@@ -63,7 +63,7 @@ TEST(SignTable, UsesWhatItsWordsOffer) {
   EXPECT_GE(to_the_hand, 15);
 }
 
-TEST(Handshapes, LieWithinHumanLimitsAndDiffer) {
+TEST(Handshapes, AreWithinHumanLimitsAndDiffer) {
   EXPECT_GE(kHandshapes, 30);
   std::set<std::string_view> names;
   for (int a = 0; a < kHandshapes; ++a) {
@@ -89,7 +89,7 @@ TEST(Handshapes, LieWithinHumanLimitsAndDiffer) {
   }
 }
 
-TEST(Handshapes, ComeBackFromTheirRotationsOnBothSides) {
+TEST(Handshapes, AreRecoveredFromTheirRotationsOnBothSides) {
   for (int a = 0; a < kHandshapes; ++a) {
     const HandAngles& angles = angles_of(static_cast<Handshape>(a));
     for (const Side side : kSides) {
@@ -117,7 +117,7 @@ std::vector<Vector3f> finger_points(Handshape shape, std::size_t finger) {
   return points;
 }
 
-TEST(Handshapes, TouchWhereTheySayAndPassThroughNothing) {
+TEST(Handshapes, TouchAsDescribedWithoutPenetration) {
   const auto apart = [](Handshape shape, std::size_t a, std::size_t b) {
     return (finger_points(shape, a).back() - finger_points(shape, b).back()).norm();
   };
@@ -128,7 +128,7 @@ TEST(Handshapes, TouchWhereTheySayAndPassThroughNothing) {
   EXPECT_GT(apart(Handshape::spread, 0, 1), 0.06f);
   for (int a = 0; a < kHandshapes; ++a) {
     const auto shape = static_cast<Handshape>(a);
-    // Fingers are about 1.5 cm thick: their tips keep apart, and no tip is inside the palm, which is 2 cm thick.
+    // Fingers are about 1.5 cm thick: their tips stay apart, and no tip is inside the palm, which is 2 cm thick.
     for (std::size_t i = 0; i < kFingers; ++i) {
       for (std::size_t j = 0; j < i; ++j) EXPECT_GT(apart(shape, i, j), 0.006f) << name_of(shape) << i << j;
       const Vector3f tip = finger_points(shape, i).back();
@@ -155,7 +155,7 @@ TEST(Handshapes, BlendFromOneToTheOtherWithoutOvershooting) {
       }
     }
   }
-  // Out of a fist the thumb goes first, into one it comes last.
+  // The thumb moves first when a fist opens and last when it closes.
   const auto done = [](const HandAngles& a, const HandAngles& b, std::size_t finger, std::size_t i) {
     return (blend(a, b, 0.35f)[finger][i] - a[finger][i]) / (b[finger][i] - a[finger][i]);
   };
@@ -209,7 +209,7 @@ TEST(Tokens, MakeSmallMovementsSmallerInAQuickContext) {
   ASSERT_GT(quick_count, 5);
   ASSERT_GT(slow_count, 5);
   EXPECT_LT(quick / quick_count, slow / slow_count - 0.1);
-  // And what is smaller is shorter.
+  // A smaller movement is also shorter.
   const SignShape& froid = sign_for("FROID");
   const Token calm;
   const Token hurried{.small = 0.72f, .fewer = 1};

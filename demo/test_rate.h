@@ -2,7 +2,7 @@
 
 #include "signweave/core/time.h"
 
-/// For tests: the rate that the demo's signer is tested at.
+/// For tests: the frame rate of the demo signer.
 namespace signweave::demo {
 
 inline constexpr FrameRate kRate{100, 1};

@@ -1,6 +1,6 @@
-// Writes the frames of a stream as BVH; docs/stream.md tells what the header holds.
+// Writes the frames of a stream as BVH; docs/stream.md describes the header.
 
-/** `q`, x y z w of any length, as degrees about z, then x, then y. */
+/** The rotation `q` (x y z w, of any length) in degrees about z, then x, then y. */
 function zxy(q) {
   const [x, y, z, w] = q.map((v) => v / Math.hypot(...q))
   return [Math.atan2(2 * (z * w - x * y), 1 - 2 * (x * x + z * z)), Math.asin(Math.min(1, Math.max(-1, 2 * (y * z + x * w)))),
@@ -9,10 +9,10 @@ function zxy(q) {
 const text = (numbers) => numbers.map((v) => v.toFixed(6)).join(' ')
 const cm = (metres) => text(metres.map((v) => 100 * v))
 
-/** A whole file. Each frame has `place(i)`, metres of the i-th joint that is translated, and `turn(joint)`, its quaternion. */
+/** The text of a file. Each frame has `place(i)`, the position of the i-th translated joint in metres, and `turn(joint)`, its quaternion. */
 export function bvh(header, frames) {
   const order = [], moved = (joint) => header.translated.indexOf(joint)
-  const tree = (joint) => { // children after their parent; `order` is that of the columns
+  const tree = (joint) => { // children follow their parent; `order` is the order of the columns
     order.push(joint)
     const channels = moved(joint) < 0 ? '3' : '6 Xposition Yposition Zposition'
     return `${joint ? 'JOINT' : 'ROOT'} ${header.joints[joint].name}\n{\nOFFSET ${cm(header.joints[joint].offset)}\n` +

@@ -1,8 +1,9 @@
-// Signs typed glosses on a server (`signweave serve`) and writes the stream that it sends as BVH:
+// Signs typed glosses on a server (`signweave serve`) and writes the stream it sends as BVH:
 //
 //   stream_client http://127.0.0.1:8080 [--database NAME] [--token T] [--rate FPS] [--tempo F] -o OUT.bvh [GLOSS…]
+//
 // Without a GLOSS, lines are read from standard input, and each is appended as it is typed. The utterance is printed
-// with the tokens that were chosen: given to `signweave sign`, it makes the same motion (docs/stream.md).
+// with the chosen tokens: given to `signweave sign`, it produces the same motion (docs/stream.md).
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -31,7 +32,7 @@ struct Options {
   json open = {{"type", "open"}, {"pace", "fast"}, {"idle", "end"}, {"batch", 60}};
 };
 
-/// What a header says of the frames: the skeleton, and how often they come.
+/// An empty motion with the skeleton and frame rate of a header.
 Motion empty_motion(const json& header) {
   const auto vector = [](const json& v) { return Eigen::Vector3f(v.at(0), v.at(1), v.at(2)); };
   std::vector<Joint> joints;
@@ -63,13 +64,13 @@ class Client {
     read_next();
   }
 
-  /// Signs this after what is there already. Its places are known here too: events only number them.
+  /// Signs this after everything sent so far. Its places are recorded here too: events only number them.
   void append(const std::string& glosses) {
     const Utterance utterance = parse_utterance(glosses);
     signed_.places.insert(signed_.places.end(), utterance.places.begin(), utterance.places.end());
     send({{"type", "append"}, {"utterance", glosses}});
   }
-  /// Nothing will be appended: once everything is signed, `run` of the context ends.
+  /// Ends the input: once everything is signed, `run` of the context ends.
   void no_more() {
     no_more_ = true;
     close_when_done();
@@ -148,13 +149,13 @@ class Client {
 
   beast::websocket::stream<asio::ip::tcp::socket> stream_;
   beast::flat_buffer buffer_;
-  std::deque<std::string> waiting_;  // to be written, the first one now
+  std::deque<std::string> waiting_;  // to be written; the first one is being written
   int unanswered_ = 0;
   bool no_more_ = false, done_ = false;
   std::int64_t end_ = -1;  // the frame after the last, once it is known
   Utterance signed_;
   Motion motion_;
-  std::vector<float> tracks_;  // of one frame; BVH has no place for them
+  std::vector<float> tracks_;  // of one frame; BVH cannot store them
 };
 
 }  // namespace
@@ -164,13 +165,13 @@ int main(int argc, char** argv) {
     Options options;
     CLI::App app("Signs glosses on a server and writes the stream as BVH.");
     std::string url;
-    app.add_option("url", url, "of the server: http://127.0.0.1:8080")->required();
+    app.add_option("url", url, "URL of the server: http://127.0.0.1:8080")->required();
     app.add_option("gloss", options.glosses, "an utterance; without one, lines of standard input");
     app.add_option("-o", options.out, "the BVH file")->required();
-    app.add_option("--database", options.database, "where the server has several");
-    app.add_option("--token", options.token, "that the server asks for");
+    app.add_option("--database", options.database, "the database, if the server has several");
+    app.add_option("--token", options.token, "the access token of the server");
     const auto ask = [&](const char* field) { return [&options, field](auto value) { options.open[field] = value; }; };
-    app.add_option_function<std::string>("--rate", ask("rate"), "frames a second");
+    app.add_option_function<std::string>("--rate", ask("rate"), "frames per second");
     app.add_option_function<double>("--tempo", ask("tempo"), "0.25 to 4");
     CLI11_PARSE(app, argc, argv);
     const std::string server = url.substr(url.starts_with("http://") ? 7 : 0);

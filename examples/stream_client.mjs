@@ -1,4 +1,4 @@
-// Signs glosses on a server (`signweave serve`) and writes the stream that it sends as BVH; docs/stream.md tells the bytes.
+// Signs glosses on a server (`signweave serve`) and writes the stream it sends as BVH; docs/stream.md describes the bytes.
 //   node stream_client.mjs 'http://127.0.0.1:8080?database=demo&token=T' OUT.bvh GLOSS…
 import { writeFileSync } from 'node:fs'
 import WebSocket from 'ws' // browsers have their own, and Node from 22
@@ -16,19 +16,19 @@ socket.onclose = ({ code, reason }) => code === 1000 || fail(`closed: ${reason |
 socket.onopen = () => [{ type: 'open', pace: 'fast', idle: 'end', batch: 60 }, { type: 'sign', utterance: glosses.join(' ') }]
   .forEach((message) => socket.send(JSON.stringify(message)))
 socket.onmessage = ({ data }) => {
-  if (typeof data === 'string') told(JSON.parse(data)); else framesOf(data)
+  if (typeof data === 'string') handle(JSON.parse(data)); else framesOf(data)
   if (frames.length !== end) return
   writeFileSync(out, bvh(header, frames))
   console.log(tokens.join(' '))
   socket.close(1000)
 }
-function told(message) {
+function handle(message) {
   if (message.type === 'error') fail(message.message)
   if (message.type === 'header') (header = message).declarations.forEach(({ value }) => console.error(`stream_client.mjs: ${value}`))
   if (message.type === 'place') tokens.push(`${message.gloss || '(piece)'}#${message.token}`)
   if (message.type === 'end') end = message.frame
 }
-function framesOf(data) { // little-endian, as the machine: typed arrays look at the bytes where they lie
+function framesOf(data) { // little-endian, like the machine: typed arrays view the bytes in place
   for (let i = 0, at = 16; i < new Uint16Array(data, 2, 1)[0]; ++i, at += header.frame_bytes) {
     const places = new Int32Array(data, at, 3 * header.translated.length)
     const turns = new Int16Array(data, at + places.byteLength + 4 * header.tracks.length, 4 * header.joints.length)

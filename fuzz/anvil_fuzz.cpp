@@ -8,11 +8,12 @@
 #include "signweave/formats/annotation_file.h"
 #include "signweave/formats/anvil/anvil.h"
 
-/// Any bytes are read as ANVIL or refused with an Error, with and without themselves as their specification. What was
-/// read is read again from what is kept of it, and is written as EAF that can be read, or refused.
+/// Any bytes are read as ANVIL or rejected with an Error, with and without themselves as their specification. A
+/// document that was read can be read again from its stored bytes, and is either written as EAF that can be read or
+/// rejected.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace signweave;
-  // A specification may follow behind a zero byte.
+  // A specification may follow after a zero byte.
   const std::string_view bytes(reinterpret_cast<const char*>(data), size);
   const std::size_t cut = bytes.find(std::string_view("\0<", 2));
   const std::string_view text = bytes.substr(0, cut);

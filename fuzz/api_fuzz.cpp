@@ -14,7 +14,7 @@ using namespace signweave;
 
 namespace {
 
-/// Two databases of one small recording, served: one for reading only, one to be changed.
+/// A server with two databases of one small recording: one read-only, one writable.
 struct Served {
   kv::TestFolder folder;
   server::ServedDatabases databases;
@@ -41,7 +41,7 @@ struct Served {
   }
 };
 
-/// The next line of the input, taken off it.
+/// Takes the next line off the input.
 std::string_view line_of(std::string_view& input) {
   const std::size_t end = std::min(input.find('\n'), input.size());
   const std::string_view line = input.substr(0, end);
@@ -51,8 +51,8 @@ std::string_view line_of(std::string_view& input) {
 
 }  // namespace
 
-/// Any request is answered with a status and, where that is a fault, with JSON that says so; it never throws, and a
-/// database that is served for reading stays as it is. The input is lines METHOD, PATH with segments separated by '/',
+/// Every request is answered with a status and, for an error, with JSON that describes it; the call never throws, and a
+/// database served read-only stays unchanged. The input is lines METHOD, PATH with segments separated by '/',
 /// NAME=VALUE pairs separated by '&', CONTENT-TYPE, and then the body.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   static Served served;

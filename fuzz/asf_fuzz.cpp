@@ -8,7 +8,7 @@
 
 using namespace signweave;
 
-/// Any bytes, a skeleton and behind the first form feed its motion, are either refused with an Error or read as a
+/// Any bytes, a skeleton and, after the first form feed, its motion, are either rejected with an Error or read as a
 /// motion of finite numbers.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string_view text(reinterpret_cast<const char*>(data), size);

@@ -9,7 +9,7 @@
 
 using namespace signweave;
 
-/// Any bytes are either refused with an Error or read, written and read again as the same motion.
+/// Any bytes are either rejected with an Error or read, written and read again as the same motion.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string_view text(reinterpret_cast<const char*>(data), size);
   bvh::ReadOptions options;

@@ -11,8 +11,8 @@
 
 using namespace signweave;
 
-/// Any bytes are either refused with an Error or read as a character; a motion of its own skeleton is put into its
-/// file, and what comes out is a character again.
+/// Any bytes are either rejected with an Error or read as a character; a motion of its own skeleton is put into its
+/// file, and the result is a character again.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string_view bytes(reinterpret_cast<const char*>(data), size);
   std::shared_ptr<const Skeleton> skeleton =

@@ -5,7 +5,7 @@
 
 #include "app/server/control_message.h"
 
-/// Any bytes are read as a control message of a stream or refused with a ControlError of one line.
+/// Any bytes are read as a control message of a stream or rejected with a ControlError of one line.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string_view text(reinterpret_cast<const char*>(data), size);
   try {

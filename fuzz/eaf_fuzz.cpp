@@ -7,8 +7,8 @@
 #include "signweave/core/error.h"
 #include "signweave/formats/eaf/eaf.h"
 
-/// Any bytes are read as EAF or refused with an Error. What was read is written back byte for byte; with one label
-/// changed, or from its model alone, it is written as a file that can be read, or refused.
+/// Any bytes are read as EAF or rejected with an Error. A document that was read is written back byte for byte; with
+/// one label changed, or from its model alone, it is either written as a file that can be read or rejected.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace signweave;
   AnnotationDocument document;

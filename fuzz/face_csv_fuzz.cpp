@@ -9,7 +9,7 @@
 
 using namespace signweave;
 
-/// Any bytes are either refused with an Error or read; what is read fits a motion, and is written and read again.
+/// Any bytes are either rejected with an Error or read; the result fits a motion, and is written and read again.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string_view text(reinterpret_cast<const char*>(data), size);
   face_csv::Face face;

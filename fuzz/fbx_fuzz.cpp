@@ -8,7 +8,7 @@
 
 using namespace signweave;
 
-/// Any bytes are either refused with an Error or become a motion of unit quaternions and finite places.
+/// Any bytes are either rejected with an Error or read as a motion of unit quaternions and finite positions.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string_view bytes(reinterpret_cast<const char*>(data), size);
   fbx::ReadOptions options;

@@ -11,12 +11,12 @@
 
 using namespace signweave;
 
-/// Any bytes are either refused with an Error or read as a motion of finite numbers and unit rotations; what our own
-/// writer makes of that is read again.
+/// Any bytes are either rejected with an Error or read as a motion of finite numbers and unit rotations; the output of
+/// our own writer for it can be read again.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string_view bytes(reinterpret_cast<const char*>(data), size);
   gltf::ReadOptions options;
-  options.most_growth = std::size_t{1} << 20;  // so that what is found is found fast
+  options.most_growth = std::size_t{1} << 20;  // so that faults are found quickly
   if (size % 4 == 1) options.rate = FrameRate{50, 1};
   if (size % 8 == 3) options.unit = 0.01;
   Motion motion;
@@ -36,7 +36,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   try {
     written = gltf::to_bytes(motion, {}, gltf::Container::binary);
   } catch (const Error&) {
-    return 0;  // too far away to be drawn, or too long for a float to tell its frames
+    return 0;  // too far away to be drawn, or too long for a float to distinguish its frames
   }
   options = {};
   gltf::read_bytes("written", written, {}, options);

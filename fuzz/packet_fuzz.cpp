@@ -28,7 +28,7 @@ class Records : public kv::ReadTransaction {
   std::optional<ByteSpan> get(ByteSpan key, Bytes&) const override { return get(key); }
 };
 
-/// Makes a damaged record's checksum right, so that what lies behind it is tried too.
+/// Corrects a damaged record's checksum, so that the code behind the check is tested too.
 void seal(Bytes& value) {
   if (value.size() < sizeof(std::uint64_t)) return;
   const std::uint64_t sum = checksum(ByteSpan(value).subspan(sizeof(std::uint64_t)));
@@ -39,7 +39,7 @@ constexpr std::int64_t kMostFrames = 1000;
 
 }  // namespace
 
-/// A stored motion of arbitrary bytes is read or refused with an Error, whichever way it is read. The input is a
+/// A stored motion of arbitrary bytes is read or rejected with an Error by every reading function. The input is a
 /// descriptor, then records: u8 kind, u16 joint, u32 block, u32 size, value.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const ByteSpan input(reinterpret_cast<const std::byte*>(data), size);

@@ -16,8 +16,8 @@
 
 using namespace signweave;
 
-/// Any bytes are either refused with an Error or a score, which reads back equal; what its clips name is rendered, or
-/// refused, of a motion of 5,400 frames.
+/// Any bytes are either rejected with an Error or a score, which reads back equal; the clips it names, of a motion of
+/// 5,400 frames, are rendered or rejected.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   static const ScoreSource source{
       .motion = std::make_shared<const MemorySource>(testing_motion::moving(5'400, {100, 1}, 0.3f)), .noise = nullptr};

@@ -13,7 +13,7 @@ using namespace signweave;
 
 namespace {
 
-/// A gloss so that nothing in it can be taken for syntax. None where it cannot be quoted.
+/// A quoted gloss, in which nothing can be parsed as syntax. nullopt if it cannot be quoted.
 std::optional<std::string> quoted(const GlossRef& gloss) {
   if (gloss.gloss.find('"') != std::string::npos) return std::nullopt;
   return '"' + gloss.gloss + '"' + (gloss.token > 0 ? '#' + std::to_string(gloss.token) : "");
@@ -28,8 +28,8 @@ std::optional<std::string> quoted(const SignRun& run) {
 
 }  // namespace
 
-/// Any bytes are read as an utterance or refused with an Error, and what was read reads back from its own text. The
-/// same bytes are also tried as the two words of an edit.
+/// Any bytes are parsed as an utterance or rejected with an Error, and a parsed utterance parses back from its own
+/// text. The same bytes are also tried as the two words of an edit.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string_view text(reinterpret_cast<const char*>(data), size);
   try {

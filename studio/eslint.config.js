@@ -3,7 +3,7 @@ import svelte from 'eslint-plugin-svelte'
 import globals from 'globals'
 import ts from 'typescript-eslint'
 
-/** Of files that have types: what only types can tell. */
+/** Rules for typed files that need type information. */
 const kTyped = {
   '@typescript-eslint/await-thenable': 'error',
   '@typescript-eslint/no-floating-promises': 'error',
@@ -31,12 +31,12 @@ export default ts.config(
       'no-var': 'error',
       'prefer-const': 'error',
       '@typescript-eslint/no-unused-expressions': ['error', { allowShortCircuit: true }],
-      // What a pattern takes out of a rest, and parameters before the one that is used.
+      // Properties removed from a rest pattern, and parameters before the one that is used, may be unused.
       '@typescript-eslint/no-unused-vars': ['error', { args: 'after-used', argsIgnorePattern: '^_', varsIgnorePattern: '^_+$', ignoreRestSiblings: true }],
     },
   },
   { files: ['src/**/*.{ts,svelte}'], languageOptions: { globals: globals.browser, parserOptions: { parser: ts.parser } } },
-  // Components are left out: what types tell of them takes minutes, and svelte-check tells most of it.
+  // Components are excluded: typed rules take minutes for them, and svelte-check covers most of them.
   {
     files: ['src/**/*.ts'],
     languageOptions: { parserOptions: { projectService: true, tsconfigRootDir: import.meta.dirname } },
@@ -45,15 +45,15 @@ export default ts.config(
   {
     files: ['**/*.svelte', '**/*.svelte.ts'],
     rules: {
-      // Properties are written with `let`, as some of them are bound.
+      // Properties are declared with `let`, because some of them are bindable.
       'prefer-const': 'off',
       'svelte/prefer-const': ['error', { excludedRunes: ['$props', '$derived', '$state'] }],
       // Sets and maps are values here: they are replaced in `$state.raw`, never changed.
       'svelte/prefer-svelte-reactivity': 'off',
-      // `{' '}` is a space that no formatter takes away.
+      // `{' '}` is a space that no formatter removes.
       'svelte/no-useless-mustaches': 'off',
     },
   },
-  // Programs of Node, some of whose functions run in a page.
+  // Node programs, some of whose functions run in a page.
   { files: ['tests/**/*.{mjs,ts}', 'avatar/**/*.js', '*.{js,ts}'], languageOptions: { globals: { ...globals.node, ...globals.browser } } },
 )

@@ -3,7 +3,7 @@ import { svelte } from '@sveltejs/vite-plugin-svelte'
 import { defineConfig } from 'vite'
 import units from './tests/units.json' with { type: 'json' }
 
-// `npm run dev` forwards calls and streams to a server that runs here.
+// `npm run dev` forwards calls and streams to a server on this machine.
 const server = process.env.SIGNWEAVE ?? 'http://127.0.0.1:8080'
 
 export default defineConfig({

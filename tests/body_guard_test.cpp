@@ -1,6 +1,6 @@
-// Arms that are made do what a body can: hands out of head, trunk and each other, forearms out of the trunk, fingers
-// out of each other, wrists within their limits. On the demo corpus, and between poses whose straight way leads
-// through.
+// Generated arm movement stays anatomically possible: hands outside head, trunk and each other, forearms outside the
+// trunk, fingers outside each other, wrists within their limits. On the demo corpus, and between poses whose straight
+// path leads through the body.
 #include "signweave/transition/body_guard.h"
 
 #include <fmt/format.h>
@@ -31,7 +31,7 @@ const Database& guarded_corpus() {
   return *database;
 }
 
-/// How deep one hand is in each capsule of the body, told without the guard.
+/// The depth of one hand in each capsule of the body, computed without the guard.
 using Depths = std::array<float, 3>;
 Depths depths_of(const Motion& motion, const SignerModel& signer, Side side, PoseView pose) {
   const ModelPose model = to_model_space(motion.skeleton(), pose);
@@ -50,8 +50,8 @@ Depths depths_of(const Motion& motion, const SignerModel& signer, Side side, Pos
   return depths;
 }
 
-/// What the guard sees to besides: how deep the forearm is in each side of the trunk, the hand in the other one, each
-/// pair of fingers in each other, metres; and how the wrist is bent.
+/// The other quantities that the guard limits: the depths of the forearm in each side of the trunk, of the hand in the
+/// other hand, and of each pair of fingers in each other, metres; and the bend of the wrist.
 struct Limbs {
   std::array<float, 2> forearm{};
   float hands = 0;
@@ -84,7 +84,7 @@ Limbs limbs_of(const Motion& motion, const SignerModel& signer, Side side, PoseV
   limbs.bend = wrist_bend((points[own].wrist - elbows[own]).normalized(), axes_of(points[own], side));
   return limbs;
 }
-/// The same of every depth, in millimetres: forearm, hands, fingers.
+/// How much deeper a generated frame is than both borders, in millimetres: forearm, hands, fingers.
 std::array<float, 3> deeper(const Limbs& made, const Limbs& left, const Limbs& right) {
   std::array<float, 3> most{};
   const auto look = [](float is, float a, float b, float& out) { out = std::max(out, 1000 * (is - std::max(a, b))); };
@@ -93,8 +93,7 @@ std::array<float, 3> deeper(const Limbs& made, const Limbs& left, const Limbs& r
   for (std::size_t i = 0; i < kFingerPairs; ++i) look(made.fingers[i], left.fingers[i], right.fingers[i], most[2]);
   return most;
 }
-/// Whether a wrist is bent farther than people's are and than at both borders, and five degrees. The rig's palms are
-/// rigid.
+/// True if a wrist is bent beyond human limits, widened to five degrees beyond those at the borders (rigid palms).
 bool is_beyond(const WristBend& bend, const WristBend& left, const WristBend& right) {
   const WristLimits limits = widened(widened(human_wrist(), left), right);
   return bend.flexion > limits.flexion.most || -bend.flexion > limits.extension.most ||
@@ -116,7 +115,7 @@ TEST(BodyGuardOnTheDemo, NoMadeFrameIsDeeperThanFiveMillimetresInsideTheBody) {
   std::mt19937 random(7);
   std::size_t looked_at = 0;
   std::size_t gaps = 0;
-  std::size_t crossed = 0;  // gaps in which hands or fingers are more than 5 mm too deep in each other
+  std::size_t crossed = 0;  // gaps in which hands or fingers penetrate each other by more than 5 mm
   for (int utterance = 0; utterance < 12; ++utterance) {
     Utterance asked;
     for (int i = 0; i < 8; ++i) {
@@ -153,7 +152,7 @@ TEST(BodyGuardOnTheDemo, NoMadeFrameIsDeeperThanFiveMillimetresInsideTheBody) {
     }
   }
   EXPECT_GT(looked_at, 2000u);
-  // What is thin may have to be led through: a few stay.
+  // Thin parts may have to pass through each other: a few cases remain.
   EXPECT_LT(crossed, gaps / 50) << gaps;
 }
 
@@ -167,7 +166,7 @@ TEST(BodyGuard, LeadsAHandAroundTheBodyAndLeavesTheBordersAlone) {
   int led_around = 0;
   int forearms_inside = 0;
   const auto number = [&] { return static_cast<float>(random() % 2001) / 1000.0f - 1.0f; };
-  // A captured pose held still, with its right arm turned anywhere.
+  // A captured pose held still, with its right arm rotated at random.
   const auto anywhere = [&] {
     Motion held = motion.slice({100, 106});
     const Eigen::Vector3f shoulder = 1.2f * Eigen::Vector3f(number(), number(), number());
@@ -192,7 +191,7 @@ TEST(BodyGuard, LeadsAHandAroundTheBodyAndLeavesTheBordersAlone) {
                   .before = view_of(before, {0, 6}),
                   .after = view_of(after, {0, 6}),
                   .count = 40};
-    // Both borders are outside, as captured ones are.
+    // Both borders are outside the body, as in captured poses.
     const auto inside = [&](PoseView pose) {
       const Depths depths = depths_of(motion, signer, Side::right, pose);
       return *std::max_element(depths.begin(), depths.end()) > 0.01f;
@@ -214,7 +213,7 @@ TEST(BodyGuard, LeadsAHandAroundTheBodyAndLeavesTheBordersAlone) {
     };
     const Motion unguarded = made;
     const bool was_inside = deepest(unguarded) > 0.02f;
-    const bool bent = guard.mend(gap, GroupSet::all(), made.poses({0, gap.count}));
+    const bool bent = guard.repair(gap, GroupSet::all(), made.poses({0, gap.count}));
     if (!was_inside) continue;
     ++led_around;
     EXPECT_TRUE(bent);
@@ -228,7 +227,8 @@ TEST(BodyGuard, LeadsAHandAroundTheBodyAndLeavesTheBordersAlone) {
       forearm = std::max(forearm, deeper(limbs, from, to)[0]);
     }
     forearms_inside += forearm > 5 ? 1 : 0;
-    // Smooth: no step of a wrist is much longer than the longest before, and the first and last go on as before.
+    // Smooth: no step of a wrist is much longer than the longest one without the guard, and the first and last frames
+    // hardly change.
     const auto wrist = [&](PoseView pose, Side side) {
       const ModelPose model = to_model_space(motion.skeleton(), pose);
       return model.positions[static_cast<std::size_t>(groups.wrists[static_cast<std::size_t>(side)])];
@@ -249,12 +249,12 @@ TEST(BodyGuard, LeadsAHandAroundTheBodyAndLeavesTheBordersAlone) {
     for (std::size_t joint = 0; joint < motion.skeleton().joint_count(); ++joint) {
       const JointRole role = groups.roles[joint];
       if (role == JointRole::shoulder || role == JointRole::elbow || role == JointRole::other_arm) continue;
-      if (role == JointRole::finger) continue;  // those that cross are bent
+      if (role == JointRole::finger) continue;  // crossing fingers are bent
       EXPECT_EQ(made.pose(20).rotations[joint].coeffs(), unguarded.pose(20).rotations[joint].coeffs());
     }
   }
   EXPECT_GE(led_around, 3);
-  EXPECT_LE(forearms_inside, 1);  // a whole arm from behind to the front goes through
+  EXPECT_LE(forearms_inside, 1);  // a whole arm moving from behind to the front passes through
 }
 
 TEST(BodyGuard, WhereNothingIsTooDeepEveryBitStays) {
@@ -269,7 +269,7 @@ TEST(BodyGuard, WhereNothingIsTooDeepEveryBitStays) {
                 .before = view_of(motion, {90, 100}),
                 .after = view_of(motion, {101, 110}),
                 .count = 1};
-  EXPECT_FALSE(guard.mend(gap, GroupSet::all(), made.poses({0, 1})));
+  EXPECT_FALSE(guard.repair(gap, GroupSet::all(), made.poses({0, 1})));
   EXPECT_EQ(std::memcmp(made.rotations().data(), motion.pose(100).rotations.data(), made.rotations().size_bytes()), 0);
 }
 

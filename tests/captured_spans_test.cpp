@@ -1,4 +1,4 @@
-// The method `recorded` on whole databases: which captured transitions it goes by.
+// The method `recorded` on whole databases: which captured transitions it uses.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -20,7 +20,7 @@ namespace {
 using testing_database::recording_of;
 using testing_database::TestFolder;
 
-/// The paper's two scenarios in a database, made once.
+/// The paper's two scenarios in a database, created once.
 const Database& two_recordings_corpus() {
   static const TestFolder folder;
   static const std::unique_ptr<const Database> database = [] {
@@ -55,7 +55,7 @@ TEST(CapturedSpans, AreTheAnnotatedTransitionsOfTheSkeleton) {
   EXPECT_EQ(captured.transitions, 32u + 21u);
   ASSERT_EQ(captured.model->libraries.size(), 1u);
   const std::vector<CapturedSpan>& spans = captured.model->libraries[0]->spans;
-  ASSERT_EQ(spans.size(), 2u * (32 + 21));  // each once whole, once without its first and last quarter
+  ASSERT_EQ(spans.size(), 2u * (32 + 21));  // each once complete, once without its first and last quarter
   const Contents& contents = snapshot.contents();
   std::size_t at = 0;
   for (std::uint32_t recording = 0; recording < 2; ++recording) {
@@ -66,12 +66,12 @@ TEST(CapturedSpans, AreTheAnnotatedTransitionsOfTheSkeleton) {
       at += 2;
     }
   }
-  // The rest is as it was learned.
+  // The rest is as learned.
   EXPECT_EQ(captured.model->bends, default_transition_model().bends);
   EXPECT_EQ(captured.model->damping, default_transition_model().damping);
 }
 
-TEST(CapturedSpans, OfAnotherSkeletonThereAreNone) {
+TEST(CapturedSpans, ThereAreNoneOfAnotherSkeleton) {
   const Motion other = testing_database::signing(10, 1);
   const CapturedSpans captured = captured_spans(two_recordings_corpus().snapshot(), other.skeleton(),
                                                 joint_groups(other.skeleton(), map_rig(other)), Needs::spans);
@@ -79,7 +79,7 @@ TEST(CapturedSpans, OfAnotherSkeletonThereAreNone) {
   EXPECT_TRUE(captured.model->libraries.empty());
 }
 
-TEST(RecordedMethod, GoesByTheCapturedTransitionsOfTheDatabase) {
+TEST(RecordedMethod, UsesTheCapturedTransitionsOfTheDatabase) {
   const char* const utterance = "VANNES PLUIE MATIN";
   const Synthesized recorded = sign_with(two_recordings_corpus(), utterance, "recorded");
   EXPECT_EQ(recorded.captured_transitions, 53u);
@@ -106,16 +106,16 @@ TEST(RecordedMethod, StrokesKeepTheirBits) {
   EXPECT_GT(compared, 50u);
 }
 
-TEST(RecordedMethod, OtherMethodsAskForNone) {
+TEST(RecordedMethod, OtherMethodsUseNone) {
   for (const TransitionMethod& method : transition_methods()) {
     const Synthesized made = sign_with(two_recordings_corpus(), "VANNES PLUIE", std::string(method.name).c_str());
     EXPECT_EQ(made.captured_transitions.has_value(), method.name == "recorded") << method.name;
   }
-  EXPECT_FALSE(
-      sign_with(two_recordings_corpus(), "VANNES", "recorded").captured_transitions.has_value());  // nothing to be made
+  EXPECT_FALSE(sign_with(two_recordings_corpus(), "VANNES", "recorded")
+                   .captured_transitions.has_value());  // no transition to generate
 }
 
-TEST(TaughtMethod, BendsWhereMovementsTaughtSomething) {
+TEST(TaughtMethod, BendsIfResidualsWereLearned) {
   const char* const utterance = "VANNES PLUIE MATIN";
   ASSERT_FALSE(two_recordings_corpus().snapshot().learned()->residuals.centres.empty());
   const Synthesized taught = sign_with(two_recordings_corpus(), utterance, nullptr);
@@ -124,7 +124,7 @@ TEST(TaughtMethod, BendsWhereMovementsTaughtSomething) {
       same_frames(taught.result.motion, sign_with(two_recordings_corpus(), utterance, "kriging").result.motion));
 }
 
-TEST(TaughtMethod, WhereTheyTaughtNothingItMakesTheLikeliestWay) {
+TEST(TaughtMethod, EqualsKrigingIfNothingWasLearned) {
   const TestFolder folder;
   Database::create(folder / "db", {});
   Database database(folder / "db", kv::Access::read_write);
@@ -135,7 +135,7 @@ TEST(TaughtMethod, WhereTheyTaughtNothingItMakesTheLikeliestWay) {
   EXPECT_TRUE(same_frames(taught.result.motion, sign_with(database, "C A", "kriging").result.motion));
 }
 
-TEST(RecordedMethod, WithoutAnnotatedTransitionsItMakesTheLikeliestWayAndSaysSo) {
+TEST(RecordedMethod, WithoutAnnotatedTransitionsFallsBackToKrigingWithANotice) {
   const TestFolder folder;
   Database::create(folder / "db", {});
   Database database(folder / "db", kv::Access::read_write);
@@ -151,7 +151,7 @@ TEST(RecordedMethod, WithoutAnnotatedTransitionsItMakesTheLikeliestWayAndSaysSo)
   EXPECT_EQ(recorded.captured_transitions, 0u);
   std::vector<std::string> notices;
   for (const Notice& notice : recorded.result.notices) notices.push_back(notice.text);
-  EXPECT_THAT(notices, testing::Contains(testing::HasSubstr("no annotated transition of this skeleton")));
+  EXPECT_THAT(notices, testing::Contains(testing::HasSubstr("no annotated transitions of this skeleton")));
   EXPECT_TRUE(same_frames(recorded.result.motion, sign_with(database, "C A", "kriging").result.motion));
 }
 

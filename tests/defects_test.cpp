@@ -1,4 +1,4 @@
-// Each defect is made in a clean motion, at a known joint and frame, and nothing else may be found.
+// Each defect is added to a clean motion, at a known joint and frame, and nothing else may be found.
 
 #include "signweave/features/defects.h"
 
@@ -36,7 +36,7 @@ std::vector<Defect> defects_of(const Motion& motion) {
   return find_defects(motion, rig_by_hand(motion.skeleton()));
 }
 
-/// The only defect there is.
+/// The only defect, which must exist.
 Defect only(const Motion& motion) {
   const std::vector<Defect> found = defects_of(motion);
   std::string texts;
@@ -118,10 +118,10 @@ TEST(Defects, AHandThatJumpsAndStays) {
   EXPECT_NEAR(defect.value, 104.7, 15);
 }
 
-TEST(Defects, AnArmThatIsElsewhereForAFrame) {
+TEST(Defects, AnArmDisplacedForOneFrame) {
   Motion motion = clean();
   const std::size_t shoulder = joint("RightArm");
-  // 15°: no fast turn of a joint, but the hand goes there and back at 15 m/s.
+  // 15°: not a fast rotation of a joint, but the hand moves there and back at 15 m/s.
   motion.pose(600).rotations[shoulder] = motion.pose(600).rotations[shoulder] * turn(16, {0, 1, 0});
   const Defect defect = only(motion);
   EXPECT_EQ(defect.kind, DefectKind::jump);
@@ -129,7 +129,7 @@ TEST(Defects, AnArmThatIsElsewhereForAFrame) {
   EXPECT_EQ(defect.frames, (FrameRange{600, 601}));
 }
 
-TEST(Defects, ARootThatIsElsewhere) {
+TEST(Defects, ADisplacedRoot) {
   Motion motion = clean();
   for (std::int64_t frame = 400; frame < motion.frame_count(); ++frame) {
     motion.pose(frame).translations[0] += Eigen::Vector3f(0.1f, 0, 0.1f);
@@ -141,7 +141,7 @@ TEST(Defects, ARootThatIsElsewhere) {
   EXPECT_NEAR(defect.value, 14.1, 0.5);
 }
 
-TEST(Defects, ACutIsSaidOnce) {
+TEST(Defects, ACutIsReportedOnce) {
   Motion motion = clean().slice({0, 600});
   for (std::int64_t frame = 0; frame < 300; ++frame) {
     for (Eigen::Quaternionf& rotation : motion.pose(frame).rotations) rotation = rotation * turn(50, {1, 2, 3});
@@ -170,7 +170,8 @@ TEST(Defects, AQuaternionThatFlips) {
 }
 
 TEST(Defects, ARootWhoseColumnsArePermuted) {
-  // What a reader makes of columns that hold a rotation where a position is declared, and the OFFSET where a rotation.
+  // The result of reading columns that hold a rotation where a position is declared, and the OFFSET where a rotation
+  // is.
   Motion motion = clean();
   const Eigen::Vector3f offset = motion.skeleton().joint(0).offset;
   for (std::int64_t frame = 0; frame < motion.frame_count(); ++frame) {
@@ -192,10 +193,10 @@ TEST(Defects, ABodyInAnotherUnit) {
   const Defect defect = only(motion);
   EXPECT_EQ(defect.kind, DefectKind::scale);
   EXPECT_NEAR(defect.value, 2.54 * 1.68, 0.2);
-  EXPECT_TRUE(find_defects(motion, RigMap()).empty());  // without a rig nobody knows how tall it is
+  EXPECT_TRUE(find_defects(motion, RigMap()).empty());  // without a rig its height is unknown
 }
 
-TEST(Defects, NumbersThatAreNone) {
+TEST(Defects, NonFiniteNumbers) {
   Motion motion = clean();
   const std::size_t elbow = joint("LeftForeArm");
   for (std::int64_t frame = 333; frame < 337; ++frame) {
@@ -207,16 +208,16 @@ TEST(Defects, NumbersThatAreNone) {
   EXPECT_EQ(defect.frames, (FrameRange{333, 337}));
 }
 
-TEST(Defects, ManyOfAKindAreCounted) {
+TEST(Defects, ManyOfOneKindAreCounted) {
   Motion motion = clean();
   const std::size_t elbow = joint("LeftForeArm");
   for (std::int64_t frame = 100; frame < 200; frame += 2) motion.pose(frame).rotations[elbow].coeffs() *= -1.0f;
   const std::vector<Defect> found = defects_of(motion);
   ASSERT_EQ(found.size(), kMostDefects);
-  EXPECT_THAT(found.back().text, HasSubstr("50 more of the kind"));
+  EXPECT_THAT(found.back().text, HasSubstr("50 more of this kind"));
 }
 
-TEST(Defects, AMotionOfOneFrameOrNoneIsNoFault) {
+TEST(Defects, AMotionOfOneFrameOrNoneHasNone) {
   EXPECT_TRUE(defects_of(clean().slice({0, 1})).empty());
   EXPECT_TRUE(defects_of(clean().slice({0, 0})).empty());
   EXPECT_TRUE(defects_of(clean().slice({0, 2})).empty());
@@ -224,7 +225,7 @@ TEST(Defects, AMotionOfOneFrameOrNoneIsNoFault) {
 
 TEST(Defects, AreFoundFarFasterThanTheMotionRuns) {
   Seconds taken(1e9);
-  for (int run = 0; run < 5; ++run) {  // the best of some: others take their share of the machine
+  for (int run = 0; run < 5; ++run) {  // the best of several runs: other processes use the machine as well
     const auto start = std::chrono::steady_clock::now();
     defects_of(clean());
     taken = std::min<Seconds>(taken, std::chrono::steady_clock::now() - start);
@@ -232,7 +233,7 @@ TEST(Defects, AreFoundFarFasterThanTheMotionRuns) {
   RecordProperty("times_real_time", static_cast<int>(clean().duration() / taken));
 #ifdef NDEBUG
   EXPECT_GT(clean().duration() / taken, 500.0);
-#else  // unoptimised, and with sanitizers
+#else  // unoptimised, or with sanitizers
   EXPECT_GT(clean().duration() / taken, 20.0);
 #endif
 }

@@ -14,7 +14,7 @@
 
 namespace signweave {
 
-/// A database of made recordings at 100 frames a second, new in a folder: for tests and benchmarks.
+/// A database of generated recordings at 100 frames per second, new in a folder: for tests and benchmarks.
 inline std::unique_ptr<const Database> demo_database(const std::filesystem::path& folder,
                                                      std::span<const demo::Script> scripts) {
   Database::create(folder, {});
@@ -29,15 +29,15 @@ inline std::unique_ptr<const Database> demo_database(const std::filesystem::path
       recording.clock = {.frame_time = made.timeline.rate.frame_time()};
       writer.put(recording);
     }
-    writer.merge();  // as an import does at its end
+    writer.merge();  // as at the end of an import
     writer.learn();
   }
   return std::make_unique<const Database>(folder, kv::Access::read_only);
 }
 
-/// A copy, in a folder, of the demo corpus of so many minutes. Each test is a process of its own, and making the corpus
-/// takes longer than most tests do: the first process of a program keeps it beside the program, under the time of the
-/// program's last change, and the others copy it from there. Nobody may have it open.
+/// A copy, in a folder, of the demo corpus of so many minutes. Each test is a separate process, and generating the
+/// corpus takes longer than most tests: the first process of a program stores it next to the program, under the
+/// program's modification time, and the others copy it from there. It must not be opened.
 inline void copy_demo_database(const std::filesystem::path& folder, double minutes) {
   namespace fs = std::filesystem;
   const fs::path program = fs::read_symlink("/proc/self/exe");
@@ -47,9 +47,9 @@ inline void copy_demo_database(const std::filesystem::path& folder, double minut
     const fs::path mine = kept.string() + fmt::format(".{}", getpid());
     fs::create_directories(mine.parent_path());
     demo_database(mine, demo::corpus_scripts(minutes)).reset();
-    std::error_code somebody_was_first;
-    fs::rename(mine, kept, somebody_was_first);
-    if (somebody_was_first) fs::remove_all(mine);
+    std::error_code exists_already;
+    fs::rename(mine, kept, exists_already);
+    if (exists_already) fs::remove_all(mine);
   }
   fs::copy(kept, folder, fs::copy_options::recursive);
 }

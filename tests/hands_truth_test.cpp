@@ -1,5 +1,5 @@
-// The hands of the made signer, measured from its motion through a rig map told from the names of its joints, against
-// what is known of how they were made.
+// The hands of the synthetic signer, measured from its motion through a rig map derived from the names of its joints,
+// against the known plan of the motion.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -16,7 +16,7 @@ namespace {
 
 using Eigen::Vector3f;
 
-/// One row of a recording's truth, with what is measured there.
+/// One row of a recording's truth, with the values measured there.
 struct Row {
   std::string gloss, phase, handshape;
   Side side = Side::left;
@@ -26,7 +26,7 @@ struct Row {
   HandFrame measured;  ///< at the end
 };
 
-/// Of the paper's two recordings.
+/// The rows of the paper's two recordings.
 const std::vector<Row>& rows() {
   static const std::vector<Row> all = [] {
     std::vector<Row> rows;
@@ -67,27 +67,27 @@ std::vector<float> openness_of(const std::string& handshape) {
   return values;
 }
 
-TEST(HandsOfTheMadeSigner, AreWhereTheyWereMeantToBe) {
+TEST(HandsOfTheSyntheticSigner, AreWherePlanned) {
   ASSERT_GT(rows().size(), 150U);
   for (const Row& row : rows()) {
-    // The palm's middle is 4.5 cm from the wrist, which is within 2 cm of the plan.
+    // The palm's centre is 4.5 cm from the wrist, which is within 2 cm of the plan.
     const float apart = (row.palm - row.wrist).norm();
     EXPECT_GT(apart, 0.025f) << row.gloss << ' ' << row.phase;
     EXPECT_LT(apart, 0.065f) << row.gloss << ' ' << row.phase;
   }
 }
 
-TEST(HandsOfTheMadeSigner, AreOpenWhereFlatAndClosedWhereAFist) {
+TEST(HandsOfTheSyntheticSigner, AreOpenIfFlatAndClosedIfAFist) {
   using testing::AllOf, testing::Each, testing::Gt, testing::Lt, testing::SizeIs;
   EXPECT_THAT(openness_of("flat"), AllOf(SizeIs(Gt(5U)), Each(Gt(0.9f))));
   EXPECT_THAT(openness_of("spread"), AllOf(SizeIs(Gt(5U)), Each(Gt(0.9f))));
   EXPECT_THAT(openness_of("fist"), AllOf(SizeIs(Gt(5U)), Each(Lt(0.15f))));
-  EXPECT_THAT(openness_of("index"), AllOf(SizeIs(Gt(3U)), Each(AllOf(Gt(0.2f), Lt(0.4f)))));   // one of four
-  EXPECT_THAT(openness_of("two"), AllOf(SizeIs(Gt(3U)), Each(AllOf(Gt(0.45f), Lt(0.65f)))));   // two of four
+  EXPECT_THAT(openness_of("index"), AllOf(SizeIs(Gt(3U)), Each(AllOf(Gt(0.2f), Lt(0.4f)))));   // one of four fingers
+  EXPECT_THAT(openness_of("two"), AllOf(SizeIs(Gt(3U)), Each(AllOf(Gt(0.45f), Lt(0.65f)))));   // two of four fingers
   EXPECT_THAT(openness_of("claw"), AllOf(SizeIs(Gt(5U)), Each(AllOf(Gt(0.45f), Lt(0.75f)))));  // all half bent
 }
 
-TEST(HandsOfTheMadeSigner, HaveTheHandshapeOfTheNearestOtherToken) {
+TEST(HandsOfTheSyntheticSigner, HaveTheHandshapeOfTheNearestOtherToken) {
   std::vector<const Row*> strokes;
   for (const Row& row : rows()) {
     if (row.phase == "Stroke") strokes.push_back(&row);
@@ -95,23 +95,23 @@ TEST(HandsOfTheMadeSigner, HaveTheHandshapeOfTheNearestOtherToken) {
   int tokens = 0;
   for (const Row* row : strokes) {
     const Row* nearest = nullptr;
-    bool alone = true;
+    bool unique = true;
     for (const Row* other : strokes) {
       if (other == row) continue;
-      alone &= other->handshape != row->handshape;
+      unique &= other->handshape != row->handshape;
       if (nearest == nullptr || distance(row->measured.handshape, other->measured.handshape) <
                                     distance(row->measured.handshape, nearest->measured.handshape)) {
         nearest = other;
       }
     }
-    if (alone) continue;
+    if (unique) continue;
     ++tokens;
     EXPECT_EQ(nearest->handshape, row->handshape) << row->gloss;
   }
   EXPECT_GT(tokens, 80);
 }
 
-/// The joints of a hand and its fingertips, from the demo's own skeleton and not through a rig map.
+/// The joints of a hand and its fingertips, from the demo's own skeleton rather than through a rig map.
 std::vector<Vector3f> points_of(const demo::Signer& signer, demo::Side side, const ModelPose& pose) {
   std::vector<Vector3f> points = {pose.positions[static_cast<std::size_t>(signer.side(side).hand)]};
   for (const auto& finger : signer.side(side).fingers) {
@@ -123,7 +123,7 @@ std::vector<Vector3f> points_of(const demo::Signer& signer, demo::Side side, con
   return points;
 }
 
-TEST(HandsOfTheMadeSigner, TouchWhereTheirPointsAreNearAndNotWhereTheyAreFar) {
+TEST(HandsOfTheSyntheticSigner, TouchIfTheirPointsAreNearAndNotIfTheyAreFar) {
   const demo::Signer signer = demo::make_signer();
   int near = 0;
   int far = 0;
@@ -144,7 +144,7 @@ TEST(HandsOfTheMadeSigner, TouchWhereTheirPointsAreNearAndNotWhereTheyAreFar) {
       const Contact contact = hands.hands[1].frames[static_cast<std::size_t>(frame)].contact;
       const bool touch = has(contact, Contact::hands);
       EXPECT_EQ(touch, has(hands.hands[0].frames[static_cast<std::size_t>(frame)].contact, Contact::hands));
-      if (apart < 0.028f) {  // two fingers' bones, their flesh and what counts as touching
+      if (apart < 0.028f) {  // the thickness of two fingers and the distance that counts as touching
         ++near;
         EXPECT_TRUE(touch) << script.name << ' ' << frame << ": " << apart;
       }
@@ -152,7 +152,7 @@ TEST(HandsOfTheMadeSigner, TouchWhereTheirPointsAreNearAndNotWhereTheyAreFar) {
         ++far;
         EXPECT_FALSE(touch) << script.name << ' ' << frame << ": " << apart;
       }
-      // Its hands keep off the head and trunk that the demo means, and so they must be seen to.
+      // The demo keeps the hands outside its own model of head and trunk, so no contact with them may be reported.
       for (const demo::Capsule& capsule : demo::keep_out_of(signer, pose)) {
         for (const Vector3f& point : right) {
           nearest_to_body = std::min(nearest_to_body, demo::clearance(capsule, point));

@@ -1,4 +1,4 @@
-// Junctions that are made in ways of their own, on the demo corpus.
+// Junctions with individually chosen methods, on the demo corpus.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -40,9 +40,10 @@ std::vector<std::size_t> numbers_of(const Synthesized& made) {
 }
 
 constexpr const char* kStrangers = "VANNES#1 PLUIE#1 , MATIN#2 RENNES#1";
-constexpr const char* kNeighbours = "BRETAGNE#1 MATIN#1 NUAGES#1 VANNES#1";  // the first three were signed so
+constexpr const char* kNeighbours =
+    "BRETAGNE#1 MATIN#1 NUAGES#1 VANNES#1";  // the first three were recorded in this order
 
-TEST(Junctions, NamingAllWithWhatIsChosenForAllIsTheSame) {
+TEST(Junctions, NamingAllWithTheDefaultChoiceChangesNothing) {
   for (const TransitionMethod& method : transition_methods()) {
     const Synthesized expected = sign(kStrangers, {.method = &method});
     ASSERT_THAT(numbers_of(expected), ElementsAre(1, 2, 3));
@@ -58,7 +59,7 @@ TEST(Junctions, NamingAllWithWhatIsChosenForAllIsTheSame) {
       same_bits(sign(kStrangers, named).result.motion, sign(kStrangers, {.duration = {.fixed = 300ms}}).result.motion));
 }
 
-TEST(Junctions, ThatAreNamedAreMadeBetweenRecordedNeighbours) {
+TEST(Junctions, NamedOnesAreMadeEvenBetweenRecordedNeighbours) {
   const Synthesized kept = sign(kNeighbours, {});
   EXPECT_THAT(numbers_of(kept), ElementsAre(3));
   EXPECT_TRUE(kept.result.notices.empty());
@@ -71,7 +72,7 @@ TEST(Junctions, ThatAreNamedAreMadeBetweenRecordedNeighbours) {
   EXPECT_EQ(made.result.clips.size(), 3u);
   ASSERT_EQ(made.result.notices.size(), 1u);
   EXPECT_EQ(made.result.notices[0].where, "meteo");
-  EXPECT_THAT(made.result.notices[0].text, HasSubstr("'MATIN' and 'NUAGES' were signed one after the other"));
+  EXPECT_THAT(made.result.notices[0].text, HasSubstr("'MATIN' and 'NUAGES' are neighbours in the recording"));
   EXPECT_THAT(made.result.notices[0].text, HasSubstr("junction 2 is named"));
 }
 
@@ -84,7 +85,7 @@ TEST(Junctions, DoNotChangeWhichTokensAreChosen) {
   }
 }
 
-TEST(Junctions, CapturedSpansAreHadWhereOneAsksForThem) {
+TEST(Junctions, CapturedSpansAreLoadedIfOneJunctionNeedsThem) {
   const TransitionMethod* const recorded = find_transition_method("recorded");
   EXPECT_FALSE(sign(kStrangers, {}).captured_transitions);
   EXPECT_TRUE(sign(kStrangers, {.junctions = {{2, {.method = recorded}}}}).captured_transitions);
@@ -93,11 +94,11 @@ TEST(Junctions, CapturedSpansAreHadWhereOneAsksForThem) {
   EXPECT_FALSE(sign(kStrangers, {.method = recorded, .junctions = none_asks}).captured_transitions);
 }
 
-TEST(Junctions, ThatThereAreNotAreRefusedWithTheirNumber) {
+TEST(Junctions, UnknownNumbersAreRefused) {
   const JunctionChoice choice{.tempo = 2};
   EXPECT_EQ(fault_of(kStrangers, {{1, choice}, {4, choice}}), "no junction 4: there are 3, counted from 1");
-  EXPECT_EQ(fault_of("VANNES PLUIE", {{2, choice}}), "no junction 2: there is one alone, number 1");
-  EXPECT_EQ(fault_of("VANNES", {{1, choice}}), "no junction 1: there is none, for nothing is joined");
+  EXPECT_EQ(fault_of("VANNES PLUIE", {{2, choice}}), "no junction 2: there is only junction 1");
+  EXPECT_EQ(fault_of("VANNES", {{1, choice}}), "no junction 1: there is none, because nothing is joined");
   EXPECT_THAT(fault_of("VANNES PLUIE", {{0, choice}}), HasSubstr("no junction 0"));
   EXPECT_THAT(fault_of("VANNES PLUIE", {{1, {.tempo = 5}}}), HasSubstr("tempo 5 is outside 0.25 to 4"));
   EXPECT_THAT(fault_of("VANNES PLUIE", {{1, {.duration = 60'001ms}}}), HasSubstr("60001 ms is outside"));

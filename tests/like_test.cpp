@@ -27,10 +27,10 @@ constexpr int kMoments = 32;
 constexpr int kBand = 3;
 constexpr double kVelocitySeconds = 0.15;
 
-/// [moment][axis of all points]: positions in shoulder widths, velocities in shoulder widths in 0.15 s.
+/// [moment][axis of all points]: positions in shoulder widths, velocities in shoulder widths per 0.15 s.
 using Profile = std::vector<std::vector<double>>;
 
-/// A recording and where its points are at each frame.
+/// A recording, with the positions of its points at each frame.
 class Moving {
  public:
   explicit Moving(const std::string& name)
@@ -109,30 +109,30 @@ double distance_between(const Profile& a, const Profile& b) {
   return std::sqrt(least[kMoments][kMoments] / (kMoments * points));
 }
 
-struct NearStretch {
+struct ComparedRow {
   double distance = 0;
   RowId row = 0;
 };
 
-/// All candidates, the nearest first.
+/// All candidates, nearest first.
 template <typename Wanted>
-std::vector<NearStretch> compared(const Example& example, Wanted&& wanted) {
+std::vector<ComparedRow> compared(const Example& example, Wanted&& wanted) {
   const std::shared_ptr<const Contents> contents = six_minutes_corpus().contents();
   const Segments& segments = contents->segments;
   const std::vector<Point> points =
       example.points.empty() ? std::vector<Point>{Point::palm(Side::right), Point::palm(Side::left)} : example.points;
   const Profile asked = moving(example.recording).profile(example.span, points);
-  std::vector<NearStretch> all;
+  std::vector<ComparedRow> all;
   for (RowId row = 0; row < segments.row_count(); ++row) {
     if (!wanted(segments, row)) continue;
     const std::string name(segments.recording_name(segments.recording(row)));
     all.push_back({distance_between(asked, moving(name).profile(segments.span(row), points)), row});
   }
-  std::ranges::sort(all, {}, &NearStretch::distance);
+  std::ranges::sort(all, {}, &ComparedRow::distance);
   return all;
 }
 
-/// Sums in floats and in doubles differ by so much at most.
+/// The largest difference between sums in floats and in doubles.
 constexpr double kRounding = 2e-5;
 
 void expect_nearest(const std::string& query, std::optional<std::size_t> limit, std::size_t at_least,
@@ -140,16 +140,17 @@ void expect_nearest(const std::string& query, std::optional<std::size_t> limit, 
   SCOPED_TRACE(query);
   const PhaseQuery parsed = parse(query);
   const std::vector<Segment> found = six_minutes_corpus().find(parsed, {.limit = limit});
-  const std::vector<NearStretch> all = compared(example_at(parsed, 0), wanted);
+  const std::vector<ComparedRow> all = compared(example_at(parsed, 0), wanted);
   ASSERT_GE(all.size(), at_least);
   ASSERT_EQ(found.size(), std::min(limit.value_or(kNearest), all.size()));
   std::map<RowId, double> distances;
-  for (const NearStretch& each : all) distances[each.row] = each.distance;
-  EXPECT_LT(all.front().distance, 0.5 * all[all.size() / 2].distance) << "all are alike: this shows nothing";
+  for (const ComparedRow& each : all) distances[each.row] = each.distance;
+  EXPECT_LT(all.front().distance, 0.5 * all[all.size() / 2].distance)
+      << "all distances are alike: the test shows nothing";
   for (std::size_t i = 0; i < found.size(); ++i) {
     ASSERT_TRUE(distances.contains(found[i].row)) << i << ": " << found[i].name;
-    // At each place what is as near as can be, and no nearer or farther than it is itself: so the order is the same,
-    // but for those that are as near as each other.
+    // Each position of the result has the distance of the plain definition, and the row found there has that distance
+    // too: so the order is the same, except among equal distances.
     EXPECT_NEAR(static_cast<double>(*found[i].distance), all[i].distance, kRounding) << i << ": " << found[i].name;
     EXPECT_NEAR(static_cast<double>(*found[i].distance), distances[found[i].row], kRounding) << i;
     for (std::size_t before = 0; before < i; ++before) ASSERT_NE(found[before].row, found[i].row);
@@ -163,7 +164,7 @@ bool any_stroke(const Segments& segments, RowId row) {
   return segments.kind(row) == RowKind::phase && segments.phase(row) == PhaseKind::stroke;
 }
 
-/// Some signs of the corpus, far from each other in it.
+/// Some signs of the corpus, far apart in it.
 std::vector<std::string> examples(bool strokes) {
   const std::shared_ptr<const Contents> contents = six_minutes_corpus().contents();
   const Segments& segments = contents->segments;
@@ -194,18 +195,18 @@ TEST(LikeOnTheDemo, OneHandOfStrokes) {
   }
 }
 
-TEST(LikeOnTheDemo, AllThatThereIs) {
+TEST(LikeOnTheDemo, AllRows) {
   expect_nearest("like(" + examples(false).front() + ", right_hand)", 100'000, 150, any_sign);
 }
 
-TEST(LikeOnTheDemo, NamedJointsBesideHandsAndAlone) {
+TEST(LikeOnTheDemo, NamedJointsWithHandsAndAlone) {
   const std::string example = examples(false)[1];
   for (const std::string points : {"right_elbow", "right_elbow, right_hand", "right_index_tip", "head, left_wrist"}) {
     expect_nearest("like(" + example + ", " + points + ")", 12, 150, any_sign);
   }
 }
 
-TEST(LikeOnTheDemo, BesideOtherConditions) {
+TEST(LikeOnTheDemo, TogetherWithOtherConditions) {
   const std::string example = examples(false)[2];
   expect_nearest("duration > 600ms & like(" + example + ")", 5, 20, [](const Segments& segments, RowId row) {
     return any_sign(segments, row) && segments.span(row).duration() > Milliseconds(600);

@@ -1,4 +1,4 @@
-// The player on whole databases: what becomes of it when a user interferes.
+// The player on whole databases: its behaviour when a user interferes.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -10,10 +10,10 @@
 namespace signweave {
 namespace {
 
-TEST(Player, NothingJumpsWhateverAUserDoes) {
+TEST(Player, NothingJumpsWhateverTheUserDoes) {
   const std::vector<std::string> glosses = corpus().contents()->segments.glosses();
-  // As fast as any joint of an ordinary utterance, and half as much again.
-  const auto [turn, way] =
+  // One and a half times the speed of the fastest joint of an ordinary utterance.
+  const auto [turn, displacement] =
       greatest_step(shown_whole("DEMAIN MATIN VANNES PLUIE RENNES NUAGES SOLEIL-BRILLER", {}).motion);
   std::mt19937 random(11);
   for (int round = 0; round < 40; ++round) {
@@ -48,7 +48,7 @@ TEST(Player, NothingJumpsWhateverAUserDoes) {
     show(player, shown, 2000);
     const auto [most, farthest] = greatest_step(shown.motion);
     EXPECT_LT(most, 1.5f * turn) << "round " << round << story;
-    EXPECT_LT(farthest, 1.5f * way + 0.005f) << "round " << round << story;
+    EXPECT_LT(farthest, 1.5f * displacement + 0.005f) << "round " << round << story;
     EXPECT_TRUE(player.idle());
   }
 }
@@ -70,7 +70,7 @@ TEST(Player, RestsAndBreathes) {
   EXPECT_EQ(shown.motion.frame_count(), 2000);
 }
 
-TEST(Player, PausesAndGoesOn) {
+TEST(Player, PausesAndResumes) {
   Player player(base(), {});
   player.sign(parse_utterance("DEMAIN MATIN"));
   Shown shown;
@@ -117,7 +117,7 @@ TEST(Player, SeeksWhileItSigns) {
   show(player, shown, 300);
   player.seek(Milliseconds(100));
   show(player, shown, 5000);
-  // Every place comes, those that were over by then once more.
+  // Every place is reported, those that had already ended once more.
   for (std::size_t place = 0; place < 6; ++place) {
     EXPECT_GE(std::ranges::count(shown.events, place, &PlayerEvent::place), 1) << place;
   }
@@ -138,9 +138,9 @@ TEST(Player, TempoIsChangedAtOnce) {
         << tempo;
     if (tempo < 1) continue;
     const auto at = static_cast<std::int64_t>(20);
-    const auto [turn, way] = greatest_step(shown.motion);
+    const auto [turn, displacement] = greatest_step(shown.motion);
     EXPECT_LT(turn, 2.2f * greatest_step(plain.motion).first) << at;
-    EXPECT_LT(way, 2.2f * greatest_step(plain.motion).second + 0.001f);
+    EXPECT_LT(displacement, 2.2f * greatest_step(plain.motion).second + 0.001f);
   }
   Player player(base(), {});
   EXPECT_THROW(player.set_tempo(0.2), Error);
@@ -159,7 +159,7 @@ TEST(Player, ATempoThatIsOneAgainShowsFramesAsTheyAre) {
   show(player, shown, 13);
   player.set_tempo(1);
   show(player, shown);
-  // The end is the same to the bit.
+  // The end is bit-identical.
   for (std::int64_t back = 1; back < 50; ++back) {
     const PoseView a = shown.motion.pose(shown.motion.frame_count() - back);
     const PoseView b = plain.motion.pose(plain.motion.frame_count() - back);
@@ -185,7 +185,7 @@ TEST(Player, LoopsWithoutASeam) {
   EXPECT_EQ(shown.count(Kind::end), 1u);
 }
 
-TEST(Player, AGlossThatIsNotThereChangesNothing) {
+TEST(Player, AnUnknownGlossChangesNothing) {
   Player player(base(), {.idle = Idle::end});
   player.sign(parse_utterance("DEMAIN#1 MATIN#1"));
   Shown shown;
@@ -196,7 +196,7 @@ TEST(Player, AGlossThatIsNotThereChangesNothing) {
   expect_same(shown, synthesize(corpus(), parse_utterance("DEMAIN#1 MATIN#1")), "what it had begun");
 }
 
-TEST(Player, GoesOnForLongWithoutKeepingAllOfIt) {
+TEST(Player, ContinuesForLongWithoutStoringEverything) {
   Player player(base(), {.synthesis = {.rate = FrameRate{10, 1}}, .idle = Idle::end});
   const std::vector<std::string> glosses = corpus().contents()->segments.glosses();
   std::size_t place = 0;
@@ -216,7 +216,7 @@ TEST(Player, GoesOnForLongWithoutKeepingAllOfIt) {
     }
   }
   EXPECT_EQ(place, 2'500u);
-  player.seek(Milliseconds(0));  // as far back as is kept
+  player.seek(Milliseconds(0));  // as far back as frames are stored
   ASSERT_GT(player.prepare(16), 0u);
   const auto event = player.take_event();
   ASSERT_TRUE(event);
@@ -226,7 +226,7 @@ TEST(Player, GoesOnForLongWithoutKeepingAllOfIt) {
   EXPECT_THROW(player.append(many), Error);
 }
 
-TEST(Player, GoesOnAfterAnEndThatWasPassedAtAnyTempo) {
+TEST(Player, ContinuesAfterAnEndPassedAtAnyTempo) {
   for (const double tempo : {0.25, 0.4, 0.5, 0.7, 1.0, 1.3, 1.7, 2.0}) {
     Player player(base(), {.idle = Idle::end});
     player.sign(parse_utterance("DEMAIN"));
@@ -385,7 +385,7 @@ TEST(Player, StopsSoon) {
   EXPECT_EQ(shown.count(Kind::rest), 1u);
 }
 
-TEST(Player, RefusesWhatCannotBe) {
+TEST(Player, RefusesInvalidRequests) {
   EXPECT_THROW(Player(base(), {.look_ahead = 0}), Error);
   EXPECT_THROW(Player(base(), {.look_ahead = 17}), Error);
   EXPECT_THROW(Player(base(), {.recording = "no such"}), Error);

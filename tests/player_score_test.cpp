@@ -1,4 +1,4 @@
-// What a player shows is what its score renders, whatever it is asked for on the way.
+// The frames shown by a player are those that its score renders, whatever requests it received meanwhile.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -11,7 +11,7 @@
 namespace signweave {
 namespace {
 
-/// A player at tempo 1, all of whose frames are kept, and compared with what its score renders.
+/// A player at tempo 1, whose frames are all stored and compared with what its score renders.
 class ComparedPlayer {
  public:
   explicit ComparedPlayer(const PlayerOptions& options) : player_(base(), options) {}
@@ -51,7 +51,7 @@ class ComparedPlayer {
     tracks_.resize(header.tracks.size());
   }
 
-  /// The frames that were shown before a score began.
+  /// The frames shown before a score began.
   ScoreSource frames_before(const ShownScore& live, std::int64_t taken) const {
     const std::int64_t count = live.score.clips.front().core.size();
     const std::int64_t end = taken - (live.next - count);
@@ -100,7 +100,7 @@ class ComparedPlayer {
   std::array<std::size_t, 3> seen_{};
 };
 
-TEST(PlayerScore, RendersWhatIsShownWhateverIsAskedFor) {
+TEST(PlayerScore, RendersWhatIsShownWhateverIsRequested) {
   const std::vector<std::string> glosses = corpus().contents()->segments.glosses();
   std::size_t compared = 0;
   std::array<std::size_t, 3> seen{};
@@ -156,7 +156,7 @@ TEST(PlayerScore, RendersWhatIsShownWhateverIsAskedFor) {
 }
 
 TEST(PlayerScore, AnotherUtteranceTwiceInOneSign) {
-  // Signs that were recorded one after the other are one clip; the second change comes before the first is shown.
+  // Signs that were recorded one after another form one clip; the second change comes before the first is shown.
   for (std::size_t until = 1; until < 140; until += 5) {
     ComparedPlayer stream({.idle = Idle::end});
     Player& player = stream.player();

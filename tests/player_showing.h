@@ -18,7 +18,7 @@ namespace signweave {
 using testing_database::TestFolder;
 using Kind = PlayerEvent::Kind;
 
-/// The demo corpus in a database, made once.
+/// The demo corpus in a database, generated once.
 inline const Database& corpus() {
   static const TestFolder folder;
   static const std::unique_ptr<const Database> database = demo_database(folder / "db", 6);
@@ -39,7 +39,7 @@ struct Shown {
   std::size_t count(Kind kind) const {
     return static_cast<std::size_t>(std::ranges::count(events, kind, &PlayerEvent::kind));
   }
-  /// The tokens that were signed: an utterance that leaves nothing to choose.
+  /// The signed tokens, as an utterance that leaves nothing to choose.
   std::string tokens(const std::vector<std::string>& pauses = {}) const {
     std::string text;
     for (const PlayerEvent& event : events) {
@@ -51,7 +51,7 @@ struct Shown {
   }
 };
 
-/// Takes frames until none is ready, at most so many.
+/// Takes frames until none is ready, at most `most`.
 inline void show(Player& player, Shown& shown, std::size_t most = 100'000, std::size_t at_once = 32) {
   for (std::size_t taken = 0; taken < most;) {
     const std::size_t ready = player.prepare(std::min(at_once, most - taken));
@@ -80,7 +80,7 @@ inline Shown shown_whole(const std::string& utterance, PlayerOptions options) {
   return shown;
 }
 
-/// The same frames, up to the signs of quaternions.
+/// Expects the same frames, up to the signs of quaternions.
 inline void expect_same(const Shown& shown, const Synthesized& made, const std::string& what) {
   const Motion& a = shown.motion;
   const Motion& b = made.result.motion;
@@ -105,10 +105,10 @@ inline void expect_same(const Shown& shown, const Synthesized& made, const std::
   }
 }
 
-/// The greatest turn of any joint, and way of the root, from one frame to the next.
+/// The greatest rotation of any joint, and displacement of the root, from one frame to the next.
 inline std::pair<float, float> greatest_step(const Motion& motion, std::int64_t from = 1) {
   float turn = 0;
-  float way = 0;
+  float displacement = 0;
   for (std::int64_t frame = std::max<std::int64_t>(from, 1); frame < motion.frame_count(); ++frame) {
     const PoseView a = motion.pose(frame - 1);
     const PoseView b = motion.pose(frame);
@@ -116,9 +116,9 @@ inline std::pair<float, float> greatest_step(const Motion& motion, std::int64_t 
       EXPECT_GE(a.rotations[joint].dot(b.rotations[joint]), 0.0f) << frame;  // one hemisphere
       turn = std::max(turn, a.rotations[joint].angularDistance(b.rotations[joint]));
     }
-    way = std::max(way, (a.translations[0] - b.translations[0]).norm());
+    displacement = std::max(displacement, (a.translations[0] - b.translations[0]).norm());
   }
-  return {turn, way};
+  return {turn, displacement};
 }
 
 }  // namespace signweave

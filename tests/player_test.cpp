@@ -1,4 +1,4 @@
-// The player on whole databases: what it shows is what `synthesize` makes, whenever places are added.
+// The player on whole databases: it shows what `synthesize` produces, whenever places are added.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -51,8 +51,8 @@ INSTANTIATE_TEST_SUITE_P(Player, PlayerMakes,
                                          Case{.method = "overlap", .tempo = 1.7, .rate = FrameRate{30, 1}},
                                          Case{.alignment = Alignment::ground}, Case{.alignment = Alignment::none}));
 
-TEST(Player, SignsAsCapturedWhatWasSignedSo) {
-  // A run of neighbours, of which `synthesize` keeps the recorded transitions.
+TEST(Player, SignsRecordedNeighboursAsCaptured) {
+  // A run of neighbours, whose recorded transitions `synthesize` keeps.
   const std::string text = "BRETAGNE MATIN NUAGES VANNES";
   const Shown shown = shown_whole(text, {});
   expect_same(shown, synthesize(corpus(), parse_utterance(shown.tokens())), shown.tokens());
@@ -80,8 +80,8 @@ TEST(Player, TheSameWhenGlossesComeOneByOne) {
   }
 }
 
-TEST(Player, WhatFollowsAWordThatIsNotOverIsJoinedToIt) {
-  // The rest, or the retraction, was prepared already, but no frame of it was taken.
+TEST(Player, ASignAppendedBeforeTheEndIsJoined) {
+  // The rest, or the retraction, was already prepared, but no frame of it was taken.
   for (const Idle idle : {Idle::end, Idle::living_rest}) {
     Player player(base(), {.idle = idle});
     player.sign(parse_utterance("DEMAIN#1"));

@@ -1,5 +1,5 @@
-// The made signer's recordings on other bodies, against what the source does: one made by hand, and the characters that
-// studio/avatar builds, where they are.
+// The synthetic signer's recordings on other bodies, compared with the source: one body defined here, and the
+// characters built by studio/avatar, if they exist.
 
 #include <gtest/gtest.h>
 
@@ -12,7 +12,7 @@
 namespace signweave {
 namespace {
 
-/// A recording of the demo corpus, at its first seconds.
+/// The first seconds of a recording of the demo corpus.
 Motion recording(std::size_t which, std::int64_t frames) {
   const Motion whole = demo::make_recording(demo::corpus_scripts(2)[which], {100, 1}, 1).motion;
   const std::int64_t count = std::min(frames, whole.frame_count());
@@ -40,7 +40,7 @@ void expect_the_same_signing(const std::string& name, const Motion& motion, cons
   std::cout << figures.line(name) << '\n';
   EXPECT_LT(quantile(figures.palm, 1), 5);
   EXPECT_LT(quantile(figures.fingers, 1), 5);
-  // What nearly touches goes on doing so; how far a wide open thumb stands off is the hand's own proportion.
+  // Fingertips that nearly touch still do; the distance of a wide open thumb depends on the hand's own proportions.
   if (!figures.pinch.empty()) {
     EXPECT_LT(quantile(figures.pinch, 0.95), 0.06f);
   }
@@ -52,9 +52,9 @@ void expect_the_same_signing(const std::string& name, const Motion& motion, cons
   EXPECT_LT(quantile(figures.step, 1), 25);
 }
 
-TEST(RetargetDemo, OnABodyMadeByHand) {
+TEST(RetargetDemo, OnABodyDefinedByHand) {
   const Motion motion = recording(0, 2000);
-  // Shorter arms, broader, hands of another length.
+  // Shorter arms, broader shoulders, hands of another length.
   const auto body = whole_person(0.9f);
   std::vector<Joint> joints(body->joints().begin(), body->joints().end());
   for (Joint& joint : joints) {
@@ -82,7 +82,7 @@ TEST_P(RetargetDemoCharacter, ShowsTheSameSigning) {
   }
 }
 
-TEST_P(RetargetDemoCharacter, ThePackedFileTellsWhatThePlainOneTells) {
+TEST_P(RetargetDemoCharacter, ThePackedFileEqualsThePlainOne) {
   const auto packed = built_character(GetParam());
   const auto plain = built_character(GetParam(), true);
   if (!packed || !plain) {

@@ -16,31 +16,31 @@
 
 namespace signweave {
 
-/// How near a motion on a character is to its source: one number per frame and hand (and finger).
+/// Differences between a motion on a character and its source: one number per frame and hand (and finger).
 struct RetargetFigures {
   std::vector<float> palm;     ///< between the palms' normals, degrees
-  std::vector<float> fingers;  ///< between the ways from wrist to middle knuckle, degrees
-  std::vector<float> thumb;    ///< of a fingertip's distance to the thumb's, the difference, hand lengths
-  std::vector<float> pinch;    ///< the same of those that are near the thumb there: within 0.12 hand lengths
-  std::vector<float> height;   ///< of the palm in signer-centred space, the difference, shoulder widths
-  std::vector<float> held;     ///< the same, in the unit that the character's arms let it have, where the arm is bent
-  std::vector<float> place;    ///< of the whole place, in that unit, where the arm is bent
-  std::vector<float>
-      hanging;  ///< of the whole place where the arm is nearly straight: it stays so on arms of other lengths
-  std::vector<float> inside;  ///< how deep a point of the hand lies in the body, metres
-  std::vector<float> wrist;   ///< between forearm and hand, degrees
-  std::vector<float> elbow;   ///< how far the elbow bends to the wrong side, as a share of the forearm; 0 or above
-  std::vector<float> step;    ///< of a joint's turn from one frame to the next, degrees
+  std::vector<float> fingers;  ///< between the directions from wrist to middle knuckle, degrees
+  std::vector<float> thumb;    ///< difference in a fingertip's distance to the thumb tip, hand lengths
+  std::vector<float> pinch;    ///< the same for fingertips near the thumb in the source: within 0.12 hand lengths
+  std::vector<float> height;   ///< difference in the palm's height in signer-centred space, shoulder widths
+  std::vector<float> held;     ///< the same, in the unit that the character's arms allow, if the arm is bent
+  std::vector<float> place;    ///< difference in the palm's position, in that unit, if the arm is bent
+  std::vector<float> hanging;  ///< difference in the palm's position if the arm is nearly straight: it stays so on arms
+                               ///< of other lengths
+  std::vector<float> inside;   ///< how deep a point of the hand is inside the body, metres
+  std::vector<float> wrist;    ///< between forearm and hand, degrees
+  std::vector<float> elbow;    ///< how far the elbow bends to the wrong side, as a fraction of the forearm; at least 0
+  std::vector<float> step;     ///< a joint's rotation from one frame to the next, degrees
 
-  /// "NAME: palm 0.01 0.02 0.05°, …": median, 95th percentile and worst of each.
+  /// "NAME: palm 0.01 0.02 0.05°, …": median, 95th percentile and worst value of each.
   std::string line(const std::string& name) const;
 };
 
-/// An arm whose wrist is nearer to the shoulder than this share of its length is bent: then the character's reaches the
-/// place, whatever its own lengths (see kStretchFrom and kMostRatio in retarget.cpp).
+/// An arm is bent if its wrist is nearer to the shoulder than this fraction of the arm's length: then the character's
+/// arm reaches the position, whatever its own lengths (see kStretchFrom and kMostRatio in retarget.cpp).
 inline constexpr float kBent = 0.9f / 1.14f;
 
-/// The value below which so much of them lies; `values` is not empty.
+/// The quantile at `share`; `values` must not be empty.
 inline float quantile(std::vector<float> values, double share) {
   const auto at = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
   std::nth_element(values.begin(), at, values.end());
@@ -65,7 +65,7 @@ inline float degrees_between(const Eigen::Vector3f& a, const Eigen::Vector3f& b)
   return std::atan2(a.cross(b).norm(), a.dot(b)) * 180 / std::numbers::pi_v<float>;
 }
 
-/// From the wrist along the middle finger, metres.
+/// The length from the wrist along the middle finger, metres.
 inline float length_of(const HandPoints& hand) {
   const HandPoints::OneFinger& middle = hand.finger(Finger::middle);
   float sum = (middle.points[0] - hand.wrist).norm();
@@ -76,7 +76,7 @@ inline Eigen::Vector3f tip_of(const HandPoints& hand, Finger finger) {
   return hand.finger(finger).points[hand.finger(finger).count - 1];
 }
 
-/// `shown` is the motion put onto the character, frame for frame. Both have hands with all fingers.
+/// `shown` is the motion retargeted to the character, frame for frame. Both must have hands with all fingers.
 inline RetargetFigures measure_retargeting(const Motion& motion, const SignerModel& signer, const Motion& shown,
                                            const Character& character) {
   using Eigen::Vector3f;
@@ -121,8 +121,8 @@ inline RetargetFigures measure_retargeting(const Motion& motion, const SignerMod
       float deepest = 0;
       for (const Finger finger : kFingers) {
         for (const FingerPoint point : {FingerPoint::proximal, FingerPoint::intermediate, FingerPoint::tip}) {
-          const Vector3f way = surface.way_out(position_of(rig[finger_part(side, finger, point)], to), 0.008f);
-          deepest = std::max(deepest, way.norm());
+          const Vector3f out = surface.push_out(position_of(rig[finger_part(side, finger, point)], to), 0.008f);
+          deepest = std::max(deepest, out.norm());
         }
       }
       figures.inside.push_back(deepest);
@@ -142,12 +142,12 @@ inline RetargetFigures measure_retargeting(const Motion& motion, const SignerMod
   return figures;
 }
 
-/// The character that studio/avatar has built, NAME.glb, or the plain variant: in the folder that SIGNWEAVE_CHARACTERS
-/// names, else in build/characters. None where it was not built.
+/// The character NAME.glb built by studio/avatar, or its plain variant: in the folder given by SIGNWEAVE_CHARACTERS,
+/// else in build/characters. Nullopt if it was not built.
 inline std::optional<std::filesystem::path> built_character(const std::string& name, bool plain = false) {
-  const char* told = std::getenv("SIGNWEAVE_CHARACTERS");
-  const auto folder =
-      told != nullptr ? std::filesystem::path(told) : std::filesystem::path(SIGNWEAVE_SOURCE_DIR) / "build/characters";
+  const char* given = std::getenv("SIGNWEAVE_CHARACTERS");
+  const auto folder = given != nullptr ? std::filesystem::path(given)
+                                       : std::filesystem::path(SIGNWEAVE_SOURCE_DIR) / "build/characters";
   const auto path = folder / (name + (plain ? ".plain.glb" : ".glb"));
   return std::filesystem::exists(path) ? std::optional(path) : std::nullopt;
 }

@@ -1,4 +1,5 @@
-// The paper's two scenarios (section 5.1) end to end over the library, on the demo corpus, for every transition method.
+// The paper's two scenarios (section 5.1) end to end through the library, on the demo corpus, for every transition
+// method.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -20,7 +21,7 @@ namespace {
 
 using testing_database::TestFolder;
 
-/// The demo corpus in a database, made once.
+/// The demo corpus in a database, created once.
 const Database& edited_corpus() {
   static const TestFolder folder;
   static const std::unique_ptr<const Database> database = demo_database(folder / "db", 2);
@@ -62,7 +63,7 @@ Edit scenario_2() {
   return edit;
 }
 
-/// Every frame that a recording gave has that recording's own bits (its root may be aligned).
+/// Every frame taken from a recording has that recording's own bits (its root may be aligned).
 void expect_captured_frames_are_kept(const Synthesis& made) {
   std::map<std::string, Motion> sources;
   for (const ShownClip& placed : made.clips) {
@@ -86,7 +87,7 @@ void expect_captured_frames_are_kept(const Synthesis& made) {
   EXPECT_GT(kept, static_cast<std::size_t>(made.motion.frame_count()) * 3 / 4);
 }
 
-/// Nothing that was made moves faster than the fastest that was captured.
+/// No generated movement is faster than the fastest captured one.
 void expect_no_jump(const Synthesis& made) {
   const Motion& motion = made.motion;
   double captured = 0;
@@ -146,14 +147,14 @@ TEST_P(Scenario, TransitionsLastTheMeanOfTheCorpus) {
   }
 }
 
-TEST_P(Scenario, WhatElanShowsIsConsistent) {
+TEST_P(Scenario, TheAnnotationIsConsistent) {
   const Synthesized made = edit(scenario_1());
   const AnnotationDocument document = annotation_of(made.result, "scenario1.bvh");
   const eaf::File back = eaf::read_text("scenario1.eaf", eaf::write_text(document));
   EXPECT_TRUE(back.notices.empty());
   const TierNames tiers = guess_tier_names(back.document);
   const SignsFound found = signs_in(back.document, tiers);
-  EXPECT_TRUE(found.notices.empty()) << found.notices[0].text;  // each sign is exactly filled by its phases
+  EXPECT_TRUE(found.notices.empty()) << found.notices[0].text;  // the phases of each sign fill it exactly
   EXPECT_EQ(found.signs.size(), made.result.signs.size());
   EXPECT_EQ(back.document.find_tier("Junction")->annotations.size(), 8u);
   EXPECT_EQ(back.document.find_tier("Source")->annotations.size(), 9u);
@@ -164,7 +165,8 @@ TEST_P(Scenario, UneditedClipsStayAsCaptured) {
   const Motion meteo = edited_corpus().read("meteo");
   const ShownClip& first = made.result.clips.front();
   for (std::int64_t frame = 0; frame < first.core.end; ++frame) {
-    for (std::size_t joint = 0; joint < meteo.skeleton().joint_count(); ++joint) {  // the root too: nothing is aligned
+    for (std::size_t joint = 0; joint < meteo.skeleton().joint_count();
+         ++joint) {  // the root too, because nothing is aligned
       const auto& a = made.result.motion.pose(frame).rotations[joint].coeffs();
       const auto& b = meteo.pose(frame).rotations[joint].coeffs();
       ASSERT_TRUE(a == b || a == -b) << frame << ' ' << joint;
@@ -182,7 +184,7 @@ std::vector<std::string> every_method() {
 INSTANTIATE_TEST_SUITE_P(EveryMethod, Scenario, testing::ValuesIn(every_method()),
                          [](const auto& tested) { return tested.param; });
 
-/// [Side][frame] where the wrists are, metres.
+/// [Side][frame]: wrist positions, metres.
 std::array<std::vector<Eigen::Vector3f>, 2> wrists_of(const Motion& motion) {
   const RigMap rig = map_rig(motion);
   std::array<std::vector<Eigen::Vector3f>, 2> wrists;
@@ -196,14 +198,14 @@ std::array<std::vector<Eigen::Vector3f>, 2> wrists_of(const Motion& motion) {
   return wrists;
 }
 
-/// How much a velocity changes at a frame, metres a frame.
+/// The change of velocity at a frame, metres per frame.
 double change_at(const std::vector<Eigen::Vector3f>& path, std::int64_t frame) {
   const auto at = static_cast<std::size_t>(frame);
   return static_cast<double>((path[at + 1] - 2.0f * path[at] + path[at - 1]).norm());
 }
 
-/// How much the velocity just after a frame differs from that just before it, metres a frame: each is that of the
-/// parabola through three frames of its own side, so that an acceleration that sets in is no jump.
+/// The difference between the velocities just after and just before a frame, metres per frame: each from the parabola
+/// through three frames on its own side, so that the onset of an acceleration is not a jump.
 double jump_at(const std::vector<Eigen::Vector3f>& path, std::int64_t frame) {
   const auto at = static_cast<std::size_t>(frame);
   const Eigen::Vector3f before = 1.5f * path[at] - 2.0f * path[at - 1] + 0.5f * path[at - 2];
@@ -211,10 +213,10 @@ double jump_at(const std::vector<Eigen::Vector3f>& path, std::int64_t frame) {
   return static_cast<double>((after - before).norm());
 }
 
-/// Where made frames meet captured ones, the velocity of a hand jumps by at most 1.5 times what it changed by from
-/// frame to frame in the recording, within a tenth of a second of there.
-TEST(Seams, VelocityGoesOnWhereMadeFramesMeetCapturedOnes) {
-  constexpr double kUnseen = 2e-4;  // a fifth of a millimetre from frame to frame
+/// Where generated frames meet captured ones, the velocity of a hand jumps by at most 1.5 times its largest change
+/// between frames of the recording within a tenth of a second of that point.
+TEST(Seams, VelocityContinuesBetweenGeneratedAndCapturedFrames) {
+  constexpr double kUnseen = 2e-4;  // a fifth of a millimetre between frames
   constexpr std::int64_t kNear = 10;
   const Utterance utterance = parse_utterance("VANNES MATIN PLUIE FRANCE NUAGES SOLEIL-BRILLER DEMAIN BONJOUR RENNES");
   std::map<std::string, std::array<std::vector<Eigen::Vector3f>, 2>> captured;
@@ -222,8 +224,8 @@ TEST(Seams, VelocityGoesOnWhereMadeFramesMeetCapturedOnes) {
   for (const RecordingInfo& info : contents->recordings) {
     captured.emplace(info.name, wrists_of(edited_corpus().read(info.name)));
   }
-  // Those that go on with the velocity at the border as it is, the default among them; others damp it, take it from
-  // farther back, or bend away from the border at once.
+  // The methods that continue with the velocity at the border, including the default; others damp it, estimate it from
+  // a longer span, or bend away from the border immediately.
   for (const char* name : {"learned", "kriging", "inertialize"}) {
     const TransitionMethod method{name, "", nullptr, find_gap_method(name)};
     const Synthesis made = synthesize(edited_corpus(), utterance, {.method = &method}).result;
@@ -245,7 +247,7 @@ TEST(Seams, VelocityGoesOnWhereMadeFramesMeetCapturedOnes) {
           worst = std::max(worst, jump_at(wrists[hand], seam) / usual);
           ++seams;
         };
-        // The trunk carries the hand: its seams are the hand's too.
+        // The trunk carries the hand, so its seams are also the hand's.
         for (const TransitionCut& cut : {junction.cuts[0], junction.cuts[1 + hand]}) {
           look(made.clips[i], junction.frames.begin + cut.kept_after() - 1);
           look(made.clips[i + 1], junction.frames.end - cut.kept_before());
@@ -257,31 +259,32 @@ TEST(Seams, VelocityGoesOnWhereMadeFramesMeetCapturedOnes) {
   }
 }
 
-/// A full stop is stillness, not a slower way: each hand that does not go to rest and back stands still for most of it.
+/// A full stop is stillness, not a slower movement: each hand that does not move to rest and back is still for most of
+/// it.
 TEST(Pauses, AreStillness) {
   const Synthesis made =
       synthesize(edited_corpus(), parse_utterance("RENNES . METEO . HIER . VANNES . MATIN . PLUIE")).result;
   const auto wrists = wrists_of(made.motion);
   const double hertz = made.motion.rate().hertz();
-  int looked_at = 0;
+  int checked = 0;
   for (const Junction& junction : made.junctions) {
     for (const Side side : kSides) {
       const auto hand = static_cast<std::size_t>(side);
       const TransitionCut& cut = junction.cuts[1 + hand];
-      if (cut.retraction_frames + cut.preparation_frames > 40) continue;  // on its way to rest, as captured
+      if (cut.retraction_frames + cut.preparation_frames > 40) continue;  // moving to the rest position, as captured
       std::int64_t longest = 0;
       std::int64_t still = 0;
       for (std::int64_t frame = junction.frames.begin; frame < junction.frames.end; ++frame) {
         const auto at = static_cast<std::size_t>(frame);
         const double speed = static_cast<double>((wrists[hand][at] - wrists[hand][at - 1]).norm()) * hertz;
-        still = speed < 0.03 ? still + 1 : 0;  // metres a second
+        still = speed < 0.03 ? still + 1 : 0;  // metres per second
         longest = std::max(longest, still);
       }
       EXPECT_GE(static_cast<double>(longest) / hertz, 0.4) << junction.from << " to " << junction.to;
-      ++looked_at;
+      ++checked;
     }
   }
-  EXPECT_GE(looked_at, 5);
+  EXPECT_GE(checked, 5);
 }
 
 TEST(Utterances, NeighboursKeepTheirRecordedTransition) {
@@ -299,7 +302,7 @@ TEST(Utterances, AnUnknownGlossNamesNearOnes) {
   }
 }
 
-TEST(Utterances, ATokenBeyondTheLastSaysHowManyThereAre) {
+TEST(Utterances, AnErrorForATokenBeyondTheLastGivesTheNumberOfTokens) {
   try {
     synthesize(edited_corpus(), parse_utterance("VANNES#99"));
     FAIL() << "no error";
@@ -321,19 +324,19 @@ TEST(Edits, AGlossThatOccursTwiceNeedsANumber) {
   }
 }
 
-TEST(Edits, ReplacingTheFirstSignKeepsTheRecordingWhereItStands) {
+TEST(Edits, ReplacingTheFirstSignKeepsThePositionOfTheRecording) {
   Edit edit;
   edit.replacements.push_back(parse_replacement("BONJOUR=VANNES"));
   const Synthesized made = synthesize(edited_corpus(), "meteo", edit);
   EXPECT_EQ(made.layout_from, "meteo");
-  EXPECT_EQ(made.result.junctions.size(), 2u);  // what lies before the first sign stays
+  EXPECT_EQ(made.result.junctions.size(), 2u);  // everything before the first sign remains
   const Motion meteo = edited_corpus().read("meteo");
   EXPECT_EQ(made.result.motion.pose(0).translations[0], meteo.pose(0).translations[0]);
   const std::int64_t last = made.result.motion.frame_count() - 1;
   EXPECT_EQ(made.result.motion.pose(last).translations[0], meteo.pose(meteo.frame_count() - 1).translations[0]);
 }
 
-TEST(Utterances, SigningGoesOnWhileARecordingIsReplaced) {
+TEST(Utterances, SigningContinuesWhileARecordingIsReplaced) {
   const TestFolder folder;
   Database::create(folder / "db", {});
   Database writer(folder / "db", kv::Access::read_write);
@@ -353,12 +356,13 @@ TEST(Utterances, SigningGoesOnWhileARecordingIsReplaced) {
   replacing.join();
 }
 
-TEST(Edits, SignsWithoutStrokeAtTheRecordingsEndsStay) {
+TEST(Edits, SignsWithoutStrokeAtTheRecordingsEndsRemain) {
   const TestFolder folder;
   Database::create(folder / "db", {});
   Database database(folder / "db", kv::Access::read_write);
   Recording recording = testing_database::small_recording("a", 1, {"N0", "A", "B", "C", "N4"}, 300);
-  for (Annotation& phase : recording.annotation->document.tiers[1].annotations) {  // the outer two are all hold
+  for (Annotation& phase :
+       recording.annotation->document.tiers[1].annotations) {  // the outer two consist only of holds
     if (phase.span.begin < 400ms || phase.span.begin >= 1'600ms) phase.label = "Hold";
   }
   database.put(recording);

@@ -1,4 +1,4 @@
-// Selection on whole databases: the demo corpus, and small ones in which something speaks against a token.
+// Selection on whole databases: the demo corpus, and small ones in which something counts against a token.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -16,7 +16,7 @@ using testing_database::recording_of;
 using testing_database::small_recording;
 using testing_database::TestFolder;
 
-/// The demo corpus in a database, made once.
+/// The demo corpus in a database, created once.
 const Database& selected_from_corpus() {
   static const TestFolder folder;
   static const std::unique_ptr<const Database> database = demo_database(folder / "db", 6);
@@ -39,12 +39,12 @@ TEST(SelectionOnTheDemo, RecordedNeighboursWinByTheirTermsAlone) {
   const JoinWeights weights = selected_from_corpus().snapshot().learned()->weights;
   RecordProperty("wins", std::to_string(weights.wins));
   EXPECT_GT(weights.pairs, 50u);
-  EXPECT_GT(weights.wins, 0.52f);  // its tokens are nearly alike, so that little tells them apart
+  EXPECT_GT(weights.wins, 0.52f);  // its tokens are nearly alike, so little distinguishes them
 }
 
 TEST(SelectionOnTheDemo, RecordedNeighboursStayTogether) {
   const Snapshot snapshot = selected_from_corpus().snapshot();
-  // Every run of three signs of a recording, asked for by gloss: what was recorded so is there again.
+  // Every run of three signs of a recording, requested by gloss, is found again as recorded.
   const std::vector<Sign> signs = main_signs_of(snapshot.contents().segments, 0);
   for (std::size_t i = 0; i + 2 < signs.size(); ++i) {
     const auto rests = [&](std::size_t k) { return signs[k + 1].span.begin - signs[k].span.end >= kRest; };
@@ -64,7 +64,7 @@ TEST(SelectionOnTheDemo, RecordedNeighboursStayTogether) {
   }
 }
 
-TEST(SelectionOnTheDemo, WhatIsExplainedIsWhatWasChosenBy) {
+TEST(SelectionOnTheDemo, TheExplanationGivesTheCostsOfTheChoice) {
   const Snapshot snapshot = selected_from_corpus().snapshot();
   const std::vector<Choice> choices = choices_of(snapshot, "VANNES MATIN NUAGES#1 APRES-MIDI , PLUIE NUIT VANNES");
   const Selection selection = select(snapshot, choices, {.explain = true});
@@ -77,7 +77,7 @@ TEST(SelectionOnTheDemo, WhatIsExplainedIsWhatWasChosenBy) {
     const CandidateCosts& costs = selection.explained[place][selection.chosen[place]];
     EXPECT_NEAR(costs.join_cost, selection.join_costs[place], 1e-4);
     total += static_cast<double>(costs.target_cost + costs.join_cost);
-    // No other candidate would have been better there, with the others as they are.
+    // No other candidate would have been better at this place, given the other choices.
     for (const CandidateCosts& other : selection.explained[place]) EXPECT_GE(other.cost, costs.cost - 1e-4f);
   }
   EXPECT_NEAR(total, selection.total, 1e-3);
@@ -95,7 +95,7 @@ TEST(SelectionOnTheDemo, PlacesThatArriveOneByOneAreChosenAlike) {
   EXPECT_EQ(path.finish(), whole.chosen);
 }
 
-TEST(SelectionOnTheDemo, ATokenThatWasAskedForIsTaken) {
+TEST(SelectionOnTheDemo, ARequestedTokenIsTaken) {
   const Snapshot snapshot = selected_from_corpus().snapshot();
   const std::size_t tokens = tokens_of(snapshot.contents(), "VANNES").size();
   ASSERT_GT(tokens, 1u);
@@ -116,7 +116,7 @@ struct Small {
 
 TEST(Selection, PrefersTheNeighboursThatWereRecorded) {
   Small small;
-  // The same movement twice, so that nothing but the glosses beside them tells the tokens apart.
+  // The same movement twice, so that only the neighbouring glosses distinguish the tokens.
   small.database->put(recording_of("a", 1, {"X", "B", "Y"}));
   small.database->put(recording_of("b", 1, {"A", "B", "C"}));
   const Snapshot snapshot = small.database->snapshot();
@@ -128,7 +128,7 @@ TEST(Selection, PrefersTheNeighboursThatWereRecorded) {
   EXPECT_EQ(selection.explained[1][1].target[left], 0);
 }
 
-TEST(Selection, PassesOverDefects) {
+TEST(Selection, AvoidsDefects) {
   Small small;
   Recording frozen = recording_of("a", 1, {"A", "B"});
   Motion& motion = frozen.motion->motion;
@@ -145,7 +145,7 @@ TEST(Selection, PassesOverDefects) {
   EXPECT_GT(selection.explained[1][0].target[static_cast<std::size_t>(TargetTerm::defects)], 0.4f);
 }
 
-TEST(Selection, OfRecordingsWithoutRigIsByTheRotationOfTheirJoints) {
+TEST(Selection, UsesJointRotationsForRecordingsWithoutARig) {
   Small small;
   for (int seed : {1, 5, 2}) {  // the joint of seed 2 is nearer to that of seed 1
     small.database->put(small_recording("r" + std::to_string(seed), seed,
@@ -159,7 +159,7 @@ TEST(Selection, OfRecordingsWithoutRigIsByTheRotationOfTheirJoints) {
   EXPECT_GT(selection.explained[1][0].join_unknown, 0);
 }
 
-TEST(Selection, GoesOnWithDamagedWeights) {
+TEST(Selection, ContinuesWithDamagedWeights) {
   Small small;
   small.database->put(recording_of("a", 1, {"A", "B", "A"}));
   small.database->put(recording_of("b", 2, {"B", "A", "B"}));

@@ -1,4 +1,4 @@
-// The statistics of the made signer's recordings find what the signer was told.
+// The statistics of the synthetic signer's recordings recover the parameters of the signer.
 
 #include <gtest/gtest.h>
 
@@ -19,7 +19,7 @@ std::vector<Sign> signs_of_document(const AnnotationDocument& document) {
   return signs_in(document, guess_tier_names(document)).signs;
 }
 
-TEST(Statistics, RecoverTheDurationsThatTheSignerWasTold) {
+TEST(Statistics, RecoverTheDurationsOfTheSyntheticSigner) {
   std::size_t recordings = 0;
   for (const demo::Script& script : demo::corpus_scripts(44)) {
     SCOPED_TRACE(script.name);
@@ -30,15 +30,15 @@ TEST(Statistics, RecoverTheDurationsThatTheSignerWasTold) {
     EXPECT_GE(of.count, 10u);
     EXPECT_LE(of.mean_low, asked);
     EXPECT_GE(of.mean_high, asked);
-    EXPECT_LT(of.mean_high - of.mean_low, 0.5 * asked);  // an interval that says something
+    EXPECT_LT(of.mean_high - of.mean_low, 0.5 * asked);  // a narrow interval
     EXPECT_NEAR(of.deviation, static_cast<double>(script.transition_deviation.count()), 0.05 * asked);
     ++recordings;
   }
   EXPECT_GE(recordings, 20u);
 }
 
-/// The mean duration of a phase over the truth's rows whose neighbour lies in the same unit.
-TEST(Statistics, PartsAreThoseOfTheTruth) {
+/// The mean duration of a phase over the truth's rows whose neighbour is in the same unit.
+TEST(Statistics, PartsEqualThoseOfTheTruth) {
   for (const demo::Script& script : {demo::meteo(), demo::villes()}) {
     SCOPED_TRACE(script.name);
     const demo::SyntheticRecording recording = demo::make_recording(script, kStatedRate, 1);
@@ -46,7 +46,7 @@ TEST(Statistics, PartsAreThoseOfTheTruth) {
       double begin, end;
       auto operator<=>(const Span&) const = default;
     };
-    std::map<std::string, std::set<Span>> phases;  // both hands tell the same times
+    std::map<std::string, std::set<Span>> phases;  // both hands have the same times
     std::istringstream lines(recording.truth);
     std::string line;
     std::getline(lines, line);

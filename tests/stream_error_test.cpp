@@ -1,4 +1,4 @@
-// What quantising for a stream takes from a signer: told in metres where it is largest, at the fingertips.
+// The error of quantising for a stream, in metres where it is largest: at the fingertips.
 
 #include <gtest/gtest.h>
 
@@ -37,8 +37,8 @@ TEST(StreamError, IsAtMostAnEighthOfAMillimetreAtTheFingertips) {
     }
   }
   const double mean = sum / static_cast<double>(motion.frame_count()) / static_cast<double>(skeleton.tips().size());
-  std::printf("%lld frames: %.1f micrometres at worst, %.1f in the mean\n",
-              static_cast<long long>(motion.frame_count()), static_cast<double>(worst) * 1e6, mean * 1e6);
+  std::printf("%lld frames: %.1f micrometres at worst, %.1f on average\n", static_cast<long long>(motion.frame_count()),
+              static_cast<double>(worst) * 1e6, mean * 1e6);
   EXPECT_LT(mean, 5e-5);
   EXPECT_LT(worst, 1.25e-4f);
   EXPECT_GT(worst, 5e-6f);  // something was quantised

@@ -1,5 +1,5 @@
-// How the hands go between the signs of the paper's two scenarios: what is put together from the stored features of
-// phases against the captured motion itself.
+// The hand motion between the signs of the paper's two scenarios: assembled from the stored features of phases, against
+// the captured motion itself.
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@
 namespace signweave {
 namespace {
 
-TEST(TransitionMotion, FromStoredFeaturesIsThatOfTheCapturedMotion) {
+TEST(TransitionMotion, FromStoredFeaturesEqualsThatOfTheCapturedMotion) {
   kv::TestFolder folder;
   const std::vector<demo::Script> scripts = {demo::meteo(), demo::villes()};
   const std::unique_ptr<const Database> database = demo_database(folder / "db", scripts);

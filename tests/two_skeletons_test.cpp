@@ -1,4 +1,4 @@
-// Recordings of two rigs in one database and one utterance: those of the other rig are put onto the first one's
+// Recordings of two rigs in one database and one utterance: those of the other rig are retargeted to the first one's
 // skeleton.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -32,7 +32,7 @@ demo::SyntheticRecording made_villes() {
   return demo::make_recording(demo::villes(), {100, 1}, 1);
 }
 
-/// The paper's two recordings, the cities captured as `villes` is: in a database, new in a folder.
+/// The paper's two recordings, the cities captured as for `villes`: in a database, new in a folder.
 std::unique_ptr<const Database> database_with(const std::filesystem::path& folder, Motion villes,
                                               const RigNames& rig = {}) {
   Database::create(folder, {});
@@ -46,7 +46,7 @@ std::unique_ptr<const Database> database_with(const std::filesystem::path& folde
   return std::make_unique<const Database>(folder, kv::Access::read_only);
 }
 
-/// Somebody else, with another rig, who stood two metres aside.
+/// A different signer with a different rig, standing two metres to the side.
 Motion other_villes() {
   return placed(on_other_rig(made_villes().motion), 0.8f, {2, 0, -1});
 }
@@ -57,7 +57,7 @@ const Database& two_rigs() {
   return *database;
 }
 
-/// VANNES, RENNES and MARSEILLE are signed in villes only, the others in meteo.
+/// VANNES, RENNES and MARSEILLE are signed only in villes, the others in meteo.
 const std::string kUtterance = "BONJOUR VANNES PLUIE RENNES MARSEILLE DEMAIN";
 
 BodyMapping mapping_between(const Database& database, const std::string& from, const std::string& to) {
@@ -83,7 +83,7 @@ std::string refusal(const Database& database, const std::string& utterance) {
   return "none";
 }
 
-/// Calls `see(frame, recording's frame)` for the frames that one recording gave.
+/// Calls `see(frame, recording's frame)` for the frames taken from one recording.
 template <typename See>
 std::size_t for_frames_of(const Synthesis& made, const std::string& recording, See&& see) {
   std::size_t count = 0;
@@ -97,7 +97,7 @@ std::size_t for_frames_of(const Synthesis& made, const std::string& recording, S
   return count;
 }
 
-TEST(TwoSkeletons, WhatHasTheReferencesSkeletonIsKeptBitForBit) {
+TEST(TwoSkeletons, FramesOfTheReferenceSkeletonAreKeptBitForBit) {
   for (const char* first : {"meteo", "villes"}) {
     const std::string text = first == std::string("meteo") ? kUtterance : "VANNES BONJOUR RENNES PLUIE";
     const Synthesized made = synthesize(two_rigs(), parse_utterance(text));
@@ -158,14 +158,14 @@ TEST(TwoSkeletons, HandsOfTheOtherPointAsTheyDid) {
     EXPECT_GT(seen, 100u);
     EXPECT_LT(quantile(figures.palm, 1), 0.1f);
     EXPECT_LT(quantile(figures.fingers, 1), 0.1f);
-    // What is placed is the middle of the hand; of a hand of another size the palm's middle lies elsewhere.
+    // The retargeting positions the centre of the hand; in a hand of another size the palm's centre is elsewhere.
     EXPECT_LT(quantile(figures.place, 0.5), 0.035f);
     EXPECT_LT(quantile(figures.place, 0.95), 0.07f);
     EXPECT_LT(quantile(figures.shape, 0.95), 0.01f);
   }
 }
 
-TEST(TwoSkeletons, TheSignerStaysWhereItStands) {
+TEST(TwoSkeletons, TheSignerStaysInPlace) {
   const Synthesized made = synthesize(two_rigs(), parse_utterance(kUtterance));
   const SignerModel signer = model_of_recording(two_rigs(), "meteo");
   const Motion& motion = made.result.motion;
@@ -185,13 +185,13 @@ TEST(TwoSkeletons, TheSignerStaysWhereItStands) {
     lowest = std::min(lowest, ankle);
     highest = std::max(highest, ankle);
   }
-  EXPECT_LT(highest - lowest, 0.015f);  // both stand on one floor
+  EXPECT_LT(highest - lowest, 0.015f);  // both stand on the same floor
 }
 
 TEST(TwoSkeletons, NothingJumpsBetweenThem) {
   const Synthesized made = synthesize(two_rigs(), parse_utterance(kUtterance));
   const Motion& motion = made.result.motion;
-  // The fastest joint of what was made against that of what was captured, and turns from frame to frame.
+  // The fastest joint of generated frames against that of captured ones, and rotations from frame to frame.
   double captured = 0;
   double between = 0;
   for (std::int64_t frame = 1; frame < motion.frame_count(); ++frame) {
@@ -207,18 +207,18 @@ TEST(TwoSkeletons, NothingJumpsBetweenThem) {
   }
   EXPECT_GT(between, 0);
   EXPECT_LT(between, captured);
-  const auto [turn, way] = greatest_step(motion);
+  const auto [turn, displacement] = greatest_step(motion);
   EXPECT_LT(turn, 0.25f);
-  EXPECT_LT(way, 0.01f);
+  EXPECT_LT(displacement, 0.01f);
 }
 
-TEST(TwoSkeletons, ANoticeTellsHowTheOtherIsShown) {
+TEST(TwoSkeletons, ANoticeDescribesHowTheOtherIsShown) {
   const Synthesized made = synthesize(two_rigs(), parse_utterance(kUtterance));
   ASSERT_EQ(made.result.notices.size(), 1u);
   EXPECT_EQ(made.result.notices[0].where, "villes");
   EXPECT_THAT(
       made.result.notices[0].text,
-      HasSubstr("put onto the skeleton of 'meteo', whose joints are others: 56 of 56 follow; hands within 0.0"));
+      HasSubstr("retargeted to the skeleton of 'meteo', which has other joints: 56 of 56 driven; hands within 0.0"));
   EXPECT_TRUE(synthesize(two_rigs(), parse_utterance("BONJOUR PLUIE DEMAIN")).result.notices.empty());
 }
 
@@ -231,12 +231,12 @@ TEST(TwoSkeletons, EditsTakeSignsOfTheOther) {
   std::size_t others = 0;
   for (const ShownClip& placed : made.result.clips) others += placed.recording == "villes" ? 1 : 0;
   EXPECT_EQ(others, 2u);
-  const auto [turn, way] = greatest_step(made.result.motion);
+  const auto [turn, displacement] = greatest_step(made.result.motion);
   EXPECT_LT(turn, 0.25f);
-  EXPECT_LT(way, 0.01f);
+  EXPECT_LT(displacement, 0.01f);
 }
 
-TEST(TwoSkeletons, AScoreOfBothIsRenderedAgainWholeAndInParts) {
+TEST(TwoSkeletons, AScoreOfBothIsRenderedCompletelyAndInParts) {
   const Synthesized made = synthesize(two_rigs(), parse_utterance(kUtterance));
   const Score score = score_from_json(json_of(made.result.score), "score");
   const Synthesized again = synthesize(two_rigs(), score);
@@ -256,7 +256,7 @@ TEST(TwoSkeletons, AScoreOfBothIsRenderedAgainWholeAndInParts) {
   }
 }
 
-/// What a player shows of a database.
+/// What a player shows from a database.
 Shown shown_of(const Database& database, const std::string& utterance, SynthesisOptions synthesis = {}) {
   SharedSigningCache shared(database);
   Player player(shared, {.synthesis = std::move(synthesis), .idle = Idle::end});
@@ -276,12 +276,12 @@ TEST(TwoSkeletons, APlayerShowsWhatIsSynthesized) {
       expect_same(shown, synthesize(two_rigs(), parse_utterance(shown.tokens(pauses)), options), text);
       ASSERT_EQ(shown.count(Kind::notice), 1u);
       const auto notice = std::ranges::find(shown.events, Kind::notice, &PlayerEvent::kind);
-      EXPECT_THAT(notice->text, HasSubstr("put onto the skeleton of"));
+      EXPECT_THAT(notice->text, HasSubstr("retargeted to the skeleton of"));
     }
   }
 }
 
-TEST(TwoSkeletons, APlayerRestsAndGoesOnAcrossThem) {
+TEST(TwoSkeletons, APlayerRestsAndContinuesAcrossThem) {
   SharedSigningCache shared(two_rigs());
   Player player(shared, {.recording = "meteo"});
   Shown shown;
@@ -294,12 +294,12 @@ TEST(TwoSkeletons, APlayerRestsAndGoesOnAcrossThem) {
   EXPECT_EQ(player.header()->layout_from, "meteo");
   EXPECT_GE(shown.count(Kind::place), 4u);
   EXPECT_TRUE(player.idle());
-  const auto [turn, way] = greatest_step(shown.motion);
+  const auto [turn, displacement] = greatest_step(shown.motion);
   EXPECT_LT(turn, 0.25f);
-  EXPECT_LT(way, 0.01f);
+  EXPECT_LT(displacement, 0.01f);
 }
 
-TEST(TwoSkeletons, AMotionBelowAStillRootIsWrittenAsThatSignerHasIt) {
+TEST(TwoSkeletons, AMotionBelowAStillRootIsWrittenInThatSignersLayout) {
   const TestFolder folder;
   const auto database = database_with(folder / "db", below_a_still_root(other_villes()));
   const Synthesized made = synthesize(*database, parse_utterance("VANNES BONJOUR RENNES PLUIE"));
@@ -314,7 +314,7 @@ TEST(TwoSkeletons, AMotionBelowAStillRootIsWrittenAsThatSignerHasIt) {
         signer_space(*signer.body, signer.rig, to_model_space(motion.skeleton(), motion.pose(frame)));
     ASSERT_LT((space.origin - first.origin).norm(), 0.08f) << frame;
   }
-  const auto [turn, way] = greatest_step(motion);
+  const auto [turn, displacement] = greatest_step(motion);
   EXPECT_LT(turn, 0.25f);
 }
 
@@ -323,11 +323,11 @@ TEST(TwoSkeletons, AMissingHandIsRefusedByName) {
   const auto database =
       database_with(folder / "db", without_joints(on_other_rig(made_villes().motion), {"mixamorig:RightHand"}));
   const std::string text = refusal(*database, kUtterance);
-  EXPECT_THAT(text, HasSubstr("recording 'villes' cannot be put onto the skeleton of 'meteo': 'villes' has no "));
-  EXPECT_THAT(text, HasSubstr("right_hand; name such joints in a mapping file (signweave import --rig FILE)"));
+  EXPECT_THAT(text, HasSubstr("recording 'villes' cannot be retargeted to the skeleton of 'meteo': 'villes' has no "));
+  EXPECT_THAT(text, HasSubstr("right_hand; import them with a mapping file that names such joints"));
   EXPECT_THAT(refusal(*database, "VANNES PLUIE"),
-              HasSubstr("recording 'meteo' cannot be put onto the skeleton of 'villes'"));
-  // A player leaves the places out.
+              HasSubstr("recording 'meteo' cannot be retargeted to the skeleton of 'villes'"));
+  // A player skips the places.
   SharedSigningCache shared(*database);
   Player player(shared, {.idle = Idle::end});
   player.sign(parse_utterance("BONJOUR VANNES PLUIE"));

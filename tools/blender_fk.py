@@ -1,8 +1,8 @@
-"""Prints where Blender's own importer puts the joints of a glTF file, to compare with ours; not part of the tests.
+"""Prints the joint positions from Blender's own importer of a glTF file, to compare with ours; not part of the tests.
 
     blender --background --factory-startup --python tools/blender_fk.py -- FILE.glb RATE FRAMES > places.csv
 
-Prints "place,FRAME,NAME,X,Y,Z" for each bone and each frame at RATE frames a second starting at the file's time 0, in metres, Y up.
+Prints "place,FRAME,NAME,X,Y,Z" for each bone and each frame at RATE frames per second, starting at the file's time 0, in metres, Y up.
 """
 import sys
 
@@ -16,12 +16,12 @@ bpy.ops.wm.read_factory_settings(use_empty=True)
 scene = bpy.context.scene
 scene.render.fps = int(rate)
 bpy.ops.import_scene.gltf(filepath=path, bone_heuristic="TEMPERANCE")
-armatures = [thing for thing in scene.objects if thing.type == "ARMATURE"]
-things = [thing for thing in scene.objects if thing.type == "EMPTY"]
+armatures = [item for item in scene.objects if item.type == "ARMATURE"]
+empties = [item for item in scene.objects if item.type == "EMPTY"]
 for frame in range(int(frames)):
     scene.frame_set(frame)
     places = [(bone.name, armature.matrix_world @ bone.matrix) for armature in armatures for bone in armature.pose.bones]
-    places += [(thing.name, thing.matrix_world) for thing in things]
+    places += [(item.name, item.matrix_world) for item in empties]
     for name, matrix in places:
         x, y, z = matrix.translation  # Blender's Z is up
         print("place,%d,%s,%.7f,%.7f,%.7f" % (frame, name, x, z, -y))

@@ -7,12 +7,12 @@
 namespace signweave {
 namespace {
 
-/// Kinect positions tremble: each is the mean of five, and a velocity goes over five.
+/// Kinect positions are noisy: each is the mean of five frames, and a velocity is taken over five.
 constexpr std::size_t kSmooth = 2;
 
 struct Path {
   std::vector<Eigen::Vector3f> places;      ///< [frame] metres from the spine
-  std::vector<Eigen::Vector3f> velocities;  ///< metres a second
+  std::vector<Eigen::Vector3f> velocities;  ///< metres per second
 };
 
 bool torn(const LabelledTrack& track, std::size_t from, std::size_t to) {
@@ -55,7 +55,7 @@ Path path_of(const LabelledTrack& track, std::size_t side) {
   return path;
 }
 
-/// The frames between which a transition lies: the last before it and the first after it.
+/// The frames that enclose a transition: the last before it and the first after it.
 struct Borders {
   std::size_t before;
   std::size_t after;
@@ -149,7 +149,7 @@ DurationScores score_users_left_out(std::span<const TimedTransition> transitions
     const Eigen::Vector4d weights = log_linear(others);
     for (const TimedTransition& one : transitions) {
       if (one.recording != user) continue;
-      const auto error = [&](Seconds told) { return Seconds(std::abs((told - one.duration).count())); };
+      const auto error = [&](Seconds predicted) { return Seconds(std::abs((predicted - one.duration).count())); };
       scores.mean += error(fit.mean);
       scores.median += error(median);
       scores.log_linear += error(Seconds(std::exp(weights.dot(log_linear_inputs(one.task)))));
@@ -162,8 +162,8 @@ DurationScores score_users_left_out(std::span<const TimedTransition> transitions
 }
 
 HandLags hand_lags_of(std::span<const LabelledTrack> tracks) {
-  constexpr float kMoves = 0.05f;      // metres that a hand goes at least
-  constexpr float kOfItsPeak = 0.25f;  // of its highest speed: below it a hand has not begun, or has arrived
+  constexpr float kMoves = 0.05f;      // minimum distance a hand moves, metres
+  constexpr float kOfItsPeak = 0.25f;  // fraction of its peak speed below which a hand has not begun or has arrived
   std::vector<double> begins;
   std::vector<double> ends;
   for (const LabelledTrack& track : tracks) {
@@ -171,10 +171,10 @@ HandLags hand_lags_of(std::span<const LabelledTrack> tracks) {
     for (const Borders& at : borders_in(track, Between::movements)) {
       std::array<Seconds, 2> begin{};
       std::array<Seconds, 2> end{};
-      std::array<float, 2> way{};
+      std::array<float, 2> distance{};
       for (std::size_t side = 0; side < 2; ++side) {
         const Path& path = paths[side];
-        way[side] = (path.places[at.after] - path.places[at.before]).norm();
+        distance[side] = (path.places[at.after] - path.places[at.before]).norm();
         float peak = 0;
         for (std::size_t i = at.before; i <= at.after; ++i) peak = std::max(peak, path.velocities[i].norm());
         std::size_t first = at.before;
@@ -184,8 +184,10 @@ HandLags hand_lags_of(std::span<const LabelledTrack> tracks) {
         begin[side] = track.track.times[first];
         end[side] = track.track.times[last];
       }
-      if (std::min(way[0], way[1]) < kMoves || 2 * std::min(way[0], way[1]) > std::max(way[0], way[1])) continue;
-      const std::size_t less = way[1] < way[0] ? 1 : 0;
+      if (std::min(distance[0], distance[1]) < kMoves ||
+          2 * std::min(distance[0], distance[1]) > std::max(distance[0], distance[1]))
+        continue;
+      const std::size_t less = distance[1] < distance[0] ? 1 : 0;
       begins.push_back((begin[less] - begin[1 - less]).count());
       ends.push_back((end[less] - end[1 - less]).count());
     }

@@ -11,7 +11,7 @@ namespace signweave {
 namespace {
 
 constexpr std::size_t kColumns = 20;
-constexpr float kHeadToSpine = 0.47F;  ///< metres, of an adult as a Kinect gives it
+constexpr float kHeadToSpine = 0.47F;  ///< metres, for an adult as measured by a Kinect
 
 std::vector<std::string_view> split(std::string_view line) {
   std::vector<std::string_view> words;
@@ -32,14 +32,15 @@ std::optional<double> number(std::string_view word) {
 
 std::optional<MotionPhase> label(std::string_view word) {
   if (word == "Rest") return MotionPhase::rest;
-  if (word.starts_with("Prepara")) return MotionPhase::preparation;  // one frame of b1 says it in Portuguese
+  if (word.starts_with("Prepara")) return MotionPhase::preparation;  // one frame of b1 has it in Portuguese
   if (word == "Stroke") return MotionPhase::stroke;
   if (word == "Hold") return MotionPhase::hold;
   if (word == "Retraction") return MotionPhase::retraction;
   return std::nullopt;
 }
 
-/// From the file's axes (x to the viewer's right, y down, z away from the camera) to the signer's, who faces it.
+/// Rotates from the file's axes (x to the viewer's right, y down, z away from the camera) to those of the signer, who
+/// faces it.
 void turn_to_signer(UpperBodyTrack& track) {
   std::vector<float> lengths;
   for (const UpperBody& body : track.bodies) lengths.push_back((body.head - body.spine).head<2>().norm());
@@ -62,7 +63,7 @@ LabelledTrack read_gesture_phase(const std::filesystem::path& path) {
   const std::string stem = path.stem().string();
   LabelledTrack result{.name = stem.substr(0, stem.find('_'))};
   std::string line;
-  std::getline(file, line);  // names of the columns
+  std::getline(file, line);  // column names
   for (int row = 2; std::getline(file, line); ++row) {
     if (!line.empty() && line.back() == '\r') line.pop_back();
     if (line.empty()) continue;

@@ -14,7 +14,7 @@ double f1_of(std::size_t right, std::size_t missed, std::size_t wrong) {
   return sum == 0 ? 0 : 2 * static_cast<double>(right) / static_cast<double>(sum);
 }
 
-/// The moments that lie more than kBorder from every change of label.
+/// The moments more than kBorder away from every change of label.
 std::vector<std::size_t> inner_moments(const LabelledTrack& recording) {
   const std::vector<Seconds>& times = recording.track.times;
   std::vector<bool> inner(times.size(), true);
@@ -40,19 +40,20 @@ SplitScore score_left_out(std::span<const LabelledTrack> recordings, const Train
   SplitScore result{.name = std::move(name)};
   for (const LabelledTrack& recording : recordings) {
     if (!left_out(recording)) continue;
-    const std::vector<MotionPhase> told = told_by(model, recording);
-    result.score.add(recording.labels, told);
-    for (const std::size_t i : inner_moments(recording)) result.inner.add({&recording.labels[i], 1}, {&told[i], 1});
+    const std::vector<MotionPhase> predicted = predicted_phases(model, recording);
+    result.score.add(recording.labels, predicted);
+    for (const std::size_t i : inner_moments(recording))
+      result.inner.add({&recording.labels[i], 1}, {&predicted[i], 1});
   }
   return result;
 }
 
 }  // namespace
 
-void PhaseScore::add(std::span<const MotionPhase> truth, std::span<const MotionPhase> told) {
-  assert(truth.size() == told.size());
+void PhaseScore::add(std::span<const MotionPhase> truth, std::span<const MotionPhase> predicted) {
+  assert(truth.size() == predicted.size());
   for (std::size_t i = 0; i < truth.size(); ++i) {
-    ++counts[static_cast<std::size_t>(truth[i])][static_cast<std::size_t>(told[i])];
+    ++counts[static_cast<std::size_t>(truth[i])][static_cast<std::size_t>(predicted[i])];
   }
 }
 

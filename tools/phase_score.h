@@ -9,38 +9,38 @@
 
 namespace signweave {
 
-/// How often each phase was called what, frame by frame.
+/// Confusion matrix of phases, counted per frame.
 struct PhaseScore {
-  std::array<std::array<std::size_t, kMotionPhases>, kMotionPhases> counts{};  ///< [person's word][told]
+  std::array<std::array<std::size_t, kMotionPhases>, kMotionPhases> counts{};  ///< [label][predicted]
 
-  void add(std::span<const MotionPhase> truth, std::span<const MotionPhase> told);
+  void add(std::span<const MotionPhase> truth, std::span<const MotionPhase> predicted);
   std::size_t frames() const noexcept;
-  /// Harmonic mean of precision and recall; 0 where the phase was neither there nor told.
+  /// Harmonic mean of precision and recall; 0 if the phase was neither labelled nor predicted.
   double f1(MotionPhase phase) const noexcept;
-  /// Mean of the five F1.
+  /// Mean of the five F1 scores.
   double macro_f1() const noexcept;
-  /// Share of frames told rightly as rest, or as anything but rest.
+  /// Share of frames correctly classified as rest, or as any other phase.
   double rest_accuracy() const noexcept;
-  /// Mean of the F1 of rest and the F1 of all else.
+  /// Mean of the F1 of rest and the F1 of all other phases taken as one.
   double rest_macro_f1() const noexcept;
 };
 
-/// What was learnt from, what it was tried on, and how well it did there.
+/// The score of one split into training and test data.
 struct SplitScore {
   std::string name;  ///< "user b left out", "file a1 left out"
   PhaseScore score;
-  PhaseScore inner;  ///< of the frames that are more than kBorder from any border that the person set
+  PhaseScore inner;  ///< of the frames that are more than kBorder from any labelled border
 };
-/// Two people who mark the same recording set a border this far apart and more.
+/// Two people who label the same recording place a border this far apart or more.
 inline constexpr Seconds kBorder{0.1};
 
-/// Trains on all users but one, for each, and on all files but one, for each; tries what was left out.
+/// For each user, trains on all other users and tests on that user; the second function does the same for files.
 std::vector<SplitScore> score_users_left_out(std::span<const LabelledTrack> recordings,
                                              const TrainingOptions& options = {});
 std::vector<SplitScore> score_files_left_out(std::span<const LabelledTrack> recordings,
                                              const TrainingOptions& options = {});
 
-/// The scores as a table with a line for each and one for their means.
+/// The scores as a table with a line per split and one for the means.
 std::string table_of(std::span<const SplitScore> scores);
 
 }  // namespace signweave

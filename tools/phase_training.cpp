@@ -13,7 +13,7 @@ namespace {
 using Network = std::array<float, PhaseModel::kWeights>;
 constexpr std::size_t kHidden = PhaseModel::kHidden;
 
-/// Numbers that are the same on every machine, which the distributions of the standard library need not be.
+/// Random numbers that are the same on every machine, unlike the distributions of the standard library.
 class Random {
  public:
   explicit Random(std::uint64_t seed) : bits_(seed) {}
@@ -28,7 +28,7 @@ class Random {
   std::mt19937_64 bits_;
 };
 
-/// The moment of the recording that is nearest to each frame.
+/// The moment of the recording nearest to each frame.
 std::vector<std::size_t> nearest_moments(const PhaseFrames& frames, const std::vector<Seconds>& times) {
   std::vector<std::size_t> result(frames.frames);
   for (std::size_t frame = 0; frame < frames.frames; ++frame) {
@@ -65,7 +65,8 @@ void set_scale(PhaseModel& model, std::span<const TrainingExample> examples) {
     for (const TrainingExample& example : examples)
       squares += (example.features[i] - mean) * (example.features[i] - mean);
     model.mean[i] = static_cast<float>(mean);
-    // Never so steep that rounding to 1/4096 would matter elsewhere: a feature that hardly moves says nothing.
+    // Limited, so that rounding to 1/4096 does not matter elsewhere: a feature that hardly varies carries no
+    // information.
     model.scale[i] = static_cast<float>(1 / std::max(0.01, std::sqrt(squares / static_cast<double>(examples.size()))));
   }
 }
@@ -78,7 +79,7 @@ void set_steps(PhaseModel& model, std::span<const LabelledTrack* const> recordin
     }
   }
   for (std::size_t from = 0; from < kMotionPhases; ++from) {
-    for (double& count : counts[from]) count += 0.05;  // what was never seen is unlikely, not impossible
+    for (double& count : counts[from]) count += 0.05;  // an unseen transition is unlikely, not impossible
     const double sum = std::accumulate(counts[from].begin(), counts[from].end(), 0.0);
     for (std::size_t to = 0; to < kMotionPhases; ++to) {
       model.step[from][to] = weight * static_cast<float>(std::log(counts[from][to] / sum));
@@ -86,7 +87,7 @@ void set_steps(PhaseModel& model, std::span<const LabelledTrack* const> recordin
   }
 }
 
-/// Weights that count every phase as much as every other, whatever its share of the frames; their mean is 1.
+/// Weights that give every phase the same influence, whatever its share of the frames; their mean is 1.
 std::array<float, kMotionPhases> phase_weights(std::span<const TrainingExample> examples) {
   std::array<double, kMotionPhases> counts{};
   for (const TrainingExample& example : examples) counts[static_cast<std::size_t>(example.phase)] += 1;
@@ -100,11 +101,11 @@ std::array<float, kMotionPhases> phase_weights(std::span<const TrainingExample> 
   return weights;
 }
 
-/// Adds the gradient of one example's loss. `kept` holds for each middle number 0 or 1 / (1 - dropout).
+/// Adds the gradient of one example's loss. `kept` has 0 or 1 / (1 - dropout) for each hidden unit.
 void add_gradient(const Network& network, std::span<const float, kPhaseFeatures> scaled, MotionPhase phase,
                   float weight, float doubt, std::span<const float, kHidden> kept, Network& gradient) {
   std::array<float, kHidden> hidden;
-  Network thinned = network;  // the last layer sees the middle one through `kept`
+  Network thinned = network;  // the last layer sees the hidden one through `kept`
   float* const last = thinned.data() + kHidden * (kPhaseFeatures + 1);
   for (std::size_t to = 0; to < kMotionPhases; ++to) {
     for (std::size_t h = 0; h < kHidden; ++h) last[to * (kHidden + 1) + h] *= kept[h];
@@ -129,7 +130,7 @@ void add_gradient(const Network& network, std::span<const float, kPhaseFeatures>
   }
 }
 
-/// Adam (Kingma and Ba 2015) with weights that decay apart from it.
+/// Adam (Kingma and Ba 2015) with decoupled weight decay.
 struct Adam {
   Network first{};
   Network second{};
@@ -214,7 +215,7 @@ PhaseModel train(std::span<const LabelledTrack* const> recordings, const Trainin
   return unpacked(packed(model));
 }
 
-std::vector<MotionPhase> told_by(const PhaseModel& model, const LabelledTrack& recording) {
+std::vector<MotionPhase> predicted_phases(const PhaseModel& model, const LabelledTrack& recording) {
   std::vector<MotionPhase> result(recording.labels.size(), MotionPhase::rest);
   std::size_t moment = 0;
   for (const PhaseFrames& frames : phase_features(recording.track)) {
@@ -224,7 +225,7 @@ std::vector<MotionPhase> told_by(const PhaseModel& model, const LabelledTrack& r
       const std::vector<float>& values = frames.features[static_cast<std::size_t>(frames.leading(frame))];
       std::copy_n(values.begin() + at, kPhaseFeatures, leading.begin() + at);
     }
-    const std::vector<MotionPhase> phases = likeliest_phases(model, phase_probabilities(model, leading));
+    const std::vector<MotionPhase> phases = most_likely_phases(model, phase_probabilities(model, leading));
     const Seconds end = frames.begin + Seconds((static_cast<double>(frames.frames) + 1) / kSegmenterRate);
     for (; moment < result.size() && recording.track.times[moment] < end; ++moment) {
       const double frame = (recording.track.times[moment] - frames.begin).count() * kSegmenterRate;

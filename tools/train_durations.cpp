@@ -1,6 +1,7 @@
-// Says how well the duration of a transition can be told from what the hands have to do. docs/durations.md shows it.
+// Reports how well the duration of a transition can be predicted from the task of the hands. docs/durations.md shows
+// the results.
 //
-//   train_durations FOLDER    of "Gesture Phase Segmentation" (its raw/ holds *_raw.csv); one user left out
+//   train_durations FOLDER    of "Gesture Phase Segmentation" (its raw/ contains *_raw.csv); one user left out
 #include <fmt/format.h>
 
 #include <iostream>

@@ -1,4 +1,4 @@
-// Trains the model of `signweave segment`, and says how good it is. docs/segmenting.md shows how it is used.
+// Trains the model of `signweave segment` and reports its quality. docs/segmenting.md shows its use.
 //
 //   train_segmenter FOLDER                     prints the scores with a user left out and with a file left out
 //   train_segmenter FOLDER --write FILE.inc    trains on everything and writes the weights
@@ -14,7 +14,7 @@ namespace {
 using namespace signweave;
 
 void write_weights(const std::string& path, const PhaseModel& model) {
-  constexpr std::size_t kWidth = 2000;  // long lines: nobody reads them, and the file stays small
+  constexpr std::size_t kWidth = 2000;  // long lines, which keep the generated file small
   std::string text =
       "// Made by tools/train_segmenter.cpp from \"Gesture Phase Segmentation\" (Madeo, Wagner, Peres 2014).\n";
   std::string line;

@@ -1,5 +1,6 @@
-// Trains what the transition methods learn from captured spans, and writes signweave/transition/transition_weights.inc.
-// docs/evaluation.md says what the files are and how well it does without each of them.
+// Trains the models that the transition methods learn from captured spans, and writes
+// signweave/transition/transition_weights.inc. docs/evaluation.md describes the input files and the results with each
+// of them left out.
 //
 //   train_transitions FILE.inc PATH...    databases, motion files, or folders of them
 #include <fmt/format.h>

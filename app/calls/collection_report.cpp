@@ -29,7 +29,7 @@ bool signs(const MethodScores& method) {
 /// What `sign` offers, beside kriging.
 std::vector<Judgement> judgements_of(const EvaluatedTask& task, Bootstrap& bootstrap) {
   std::vector<Judgement> judgements;
-  const MethodScores* const other = scores_of(task, kJudgedBeside);
+  const MethodScores* const other = scores_of(task, kReferenceMethod);
   if (other == nullptr || task.spans.empty()) return judgements;
   for (const MethodScores& method : task.methods) {
     if (!signs(method) || &method == other) continue;
@@ -90,7 +90,7 @@ std::string judged_text(const EvaluatedTask& task, Bootstrap& bootstrap) {
   const std::vector<Judgement> judgements = judgements_of(task, bootstrap);
   if (judgements.empty()) return {};
   const bool several = task.collections.size() > 1;
-  TextRows rows = {{fmt::format("wrist / {}, all groups", kJudgedBeside)}};
+  TextRows rows = {{fmt::format("wrist / {}, all groups", kReferenceMethod)}};
   if (several) rows[0].insert(rows[0].end(), task.collections.begin(), task.collections.end());
   rows[0].emplace_back("all");
   rows[0].emplace_back("may be the default");
@@ -129,7 +129,7 @@ nlohmann::ordered_json judged_json(const EvaluatedTask& task, Bootstrap& bootstr
       collections.push_back(std::move(entry));
     }
     list.push_back({{"method", one.method},
-                    {"over", kJudgedBeside},
+                    {"over", kReferenceMethod},
                     {"all", estimate_json(one.all)},
                     {"collections", std::move(collections)},
                     {"may_be_default", one.wins()}});

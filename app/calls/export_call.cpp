@@ -77,7 +77,7 @@ FileContent Exported::content() const {
   return {.motion = motion ? &*motion : nullptr,
           .document = document ? &*document : nullptr,
           .layout = character ? std::nullopt : info.layout,
-          .wishes = wishes,
+          .layout_changes = wishes,
           .title = remade.empty() ? info.name : fmt::format("{}, in part made by {}", info.name, remade_by->name),
           .rig = character ? RigNames{} : info.rig,
           .signing_space = signing_space,

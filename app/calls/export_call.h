@@ -71,7 +71,7 @@ struct Exported {
   std::optional<Motion> motion;
   std::optional<AnnotationDocument> document;
   bool signing_space = false;
-  bvh::LayoutWishes wishes;
+  bvh::LayoutChanges wishes;
   SharedCharacter character;                    ///< whose joints the motion has; none: those of the recording
   std::vector<FrameRange> remade;               ///< of the recording's frames those that were cut out and made again
   const TransitionMethod* remade_by = nullptr;  ///< where any were

@@ -35,8 +35,8 @@ std::string check_unit(const std::string& text) {
   return parse_unit(text) ? std::string() : "'" + text + "' is no unit: cm, m, mm, in, or metres per unit as a number";
 }
 
-bvh::LayoutWishes wishes_of(const BvhWriting& writing) {
-  bvh::LayoutWishes wishes;
+bvh::LayoutChanges wishes_of(const BvhWriting& writing) {
+  bvh::LayoutChanges wishes;
   if (!writing.order.empty()) {
     wishes.order.emplace();
     std::transform(writing.order.begin(), writing.order.end(), wishes.order->begin(), [](char axis) {

@@ -40,7 +40,7 @@ void fields(Visit& visit, BvhWriting& writing) {
 }
 
 /// Of checked fields.
-bvh::LayoutWishes wishes_of(const BvhWriting& writing);
+bvh::LayoutChanges wishes_of(const BvhWriting& writing);
 
 /// At which rate a motion is to be written. Empty: at its own.
 struct RateWriting {

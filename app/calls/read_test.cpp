@@ -60,7 +60,7 @@ TEST(ReadCall, JunctionsAreAListOfWhatTheCommandLineSays) {
   EXPECT_EQ(options.junctions.at(2), (JunctionChoice{nullptr, Milliseconds(450), 1.5}));
   EXPECT_TRUE(options_of(read_call<SignCall>(json{{"utterance", "A"}}).how).junctions.empty());
   EXPECT_THAT(fault_of<SignCall>(json{{"utterance", "A"}, {"junctions", {"1=hermit"}}}),
-              HasSubstr("junctions: 'hermit' is no method"));
+              HasSubstr("junctions: 'hermit' is not a method"));
   EXPECT_THAT(fault_of<EditCall>(json{{"recording", "x"}, {"junctions", {1}}}),
               HasSubstr("junctions: expected a list of texts, not 1 in it"));
   EXPECT_THROW(options_of(read_call<SignCall>(json{{"utterance", "A"}, {"junctions", {"1=sine", "1=x2"}}}).how), Error);

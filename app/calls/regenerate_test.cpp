@@ -264,7 +264,7 @@ TEST(RemakeOf, FaultsAreToldInOneLine) {
   EXPECT_THAT(check_span("1800..1200"), HasSubstr("FROM must be before TO"));
   EXPECT_THAT(check_span("1800..1800"), HasSubstr("FROM must be before TO"));
 
-  EXPECT_EQ(export_fault({.remake = {"1501..1504"}}), "--remake 1501..1504: no frame lies in it");
+  EXPECT_EQ(export_fault({.remake = {"1501..1504"}}), "regenerate 1501..1504: no frame lies in it");
   for (const char* span : {"500..900", "520..900", "3000..3480", "3000..9000", "-9000..9000", "9000..9100"}) {
     EXPECT_THAT(export_fault({.remake = {span}}),
                 HasSubstr("3 captured frames must lie on both sides of it, and what is "
@@ -278,7 +278,7 @@ TEST(RemakeOf, FaultsAreToldInOneLine) {
         << second;
   }
   EXPECT_EQ(export_fault({.remake = {"1500..1900", "1930..2000"}}), "no fault");
-  EXPECT_THAT(export_fault({.transition = "sine"}), HasSubstr("--transition says how --remake makes"));
+  EXPECT_THAT(export_fault({.transition = "sine"}), HasSubstr("'transition' says how 'regenerate' makes"));
   EXPECT_THAT(export_fault({.remake = {"1500..1900"}}, "out.eaf"), HasSubstr("ask for a file of motion"));
 }
 

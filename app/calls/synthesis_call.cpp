@@ -186,7 +186,7 @@ void show_on(Synthesized& made, const SignerStance& stance, const CharacterFile&
 FileContent content_of(const Synthesized& made, const SynthesisChoices& choices, const std::string& title,
                        const SharedCharacter& character) {
   FileContent content = signweave::content_of(made.result);
-  content.wishes = wishes_of(choices.bvh);
+  content.layout_changes = wishes_of(choices.bvh);
   content.title = title;
   content.signing_space = choices.signing_space;
   if (character) {

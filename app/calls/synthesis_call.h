@@ -181,6 +181,6 @@ void show_on(Synthesized& made, const SignerStance& stance, const CharacterFile&
 /// How the result is written: the layout of its source's file without that file's oddities, and what heads a sheet.
 /// `character`: whose joints it has; none: those of its source.
 FileContent content_of(const Synthesized& made, const SynthesisChoices& choices, const std::string& title,
-                       SharedCharacter character);
+                       const SharedCharacter& character);
 
 }  // namespace signweave::calls

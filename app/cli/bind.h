@@ -15,11 +15,11 @@
 
 namespace signweave::cli {
 
-/// Makes an option of the command line of each field of a call.
+/// Adds an option to the command line for each field of a call.
 class Binder {
  public:
-  /// `before` is called with the name of each field before its option is added: the place for options that the call
-  /// does not have, such as where the result is written.
+  /// `before` is called with the name of each field before its option is added, so that options that the call does not
+  /// have can be inserted, such as the output file.
   Binder(CLI::App& verb, std::function<void(std::string_view)> before) : verb_(verb), before_(std::move(before)) {}
 
   template <class Member>
@@ -44,7 +44,7 @@ class Binder {
     }
   }
 
-  /// "--offset-ms", or what the field says.
+  /// "--offset-ms", or the words that the field specifies.
   static std::string words_of(const calls::Field& field) {
     if (!field.words.empty()) return std::string(field.words);
     std::string words = fmt::format("--{}", field.name);
@@ -57,14 +57,14 @@ class Binder {
   std::function<void(std::string_view)> before_;
 };
 
-/// Every field of a call as an option of a verb; both must live until the words are parsed.
+/// Adds every field of a call as an option of a verb; both must live until the command line has been parsed.
 template <class Call>
 void bind(CLI::App& verb, Call& call, std::function<void(std::string_view)> before = {}) {
   Binder binder(verb, std::move(before));
   fields(binder, call);
 }
 
-/// The option -o that `sign`, `edit` and `export` share.
+/// Adds the option -o that `sign`, `edit` and `export` share.
 void add_outputs(CLI::App& verb, std::vector<std::string>& outputs);
 
 }  // namespace signweave::cli

@@ -27,7 +27,7 @@ bool runs(const fs::path& program) {
   return ::access(program.c_str(), X_OK) == 0 && fs::is_regular_file(program);
 }
 
-/// Where a plain name is in the PATH; empty where it is not.
+/// The path of a program found in the PATH by its plain name; empty if not found.
 fs::path in_path(const std::string& name) {
   const char* const path = std::getenv("PATH");
   std::string_view left = path == nullptr ? "" : path;
@@ -48,13 +48,13 @@ fs::path find_browser(const std::string& wanted) {
   if (!named.empty()) {
     fs::path found = named.find('/') != named.npos ? fs::path(named) : in_path(named);
     if (!found.empty() && runs(found)) return found;
-    throw Error(ErrorCode::not_found, fmt::format("{}: no program of this name", printable(named)));
+    throw Error(ErrorCode::not_found, fmt::format("{}: no such program", printable(named)));
   }
   for (const char* name : {"chromium", "chromium-browser", "google-chrome"}) {
     if (fs::path found = in_path(name); !found.empty()) return found;
   }
   throw Error(ErrorCode::not_found,
-              "no Chromium to draw with: install the package chromium, or name a program with --browser");
+              "no Chromium found to draw with: install the package chromium, or give a program with --browser");
 }
 
 Browser::Browser(const fs::path& program, const std::string& url, const fs::path& folder)
@@ -116,7 +116,7 @@ Browser::~Browser() {
 bool Browser::running() {
   if (process_ < 0) return false;
   if (::waitpid(process_, nullptr, WNOHANG) == 0) return true;
-  ::kill(-process_, SIGKILL);  // what it began
+  ::kill(-process_, SIGKILL);  // its child processes
   process_ = -1;
   return false;
 }

@@ -7,22 +7,22 @@
 
 namespace signweave::cli {
 
-/// The program of a browser that can draw without a screen: `wanted` where it is given, else $CHROMIUM, else the first
-/// of chromium, chromium-browser, google-chrome in the PATH. Throws Error{not_found} where there is none.
+/// The path of a browser that can draw without a display: `wanted` if given, else $CHROMIUM, else the first of
+/// chromium, chromium-browser, google-chrome in the PATH. Throws Error{not_found} if there is none.
 std::filesystem::path find_browser(const std::string& wanted);
 
-/// A headless Chromium on one page, with a profile of its own; ended with this object, and all that it began. Belongs
+/// A headless Chromium showing one page, with its own profile; the destructor ends it and its child processes. Belongs
 /// to one thread.
 class Browser {
  public:
-  /// `folder`: for its profile and what it says; must exist. Throws Error{io} where it cannot be started.
+  /// `folder`: for its profile and its output; must exist. Throws Error{io} if it cannot be started.
   Browser(const std::filesystem::path& program, const std::string& url, const std::filesystem::path& folder);
   Browser(const Browser&) = delete;
   ~Browser();
 
   /// False once it has ended by itself.
   bool running();
-  /// The last line of what it said, for a fault.
+  /// The last line of its output, for an error message.
   std::string last_words() const;
 
  private:

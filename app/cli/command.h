@@ -21,21 +21,21 @@ namespace signweave {
 class Database;
 }
 
-/// The command line. Results go to `out`, everything else to `err`; failure is thrown.
+/// The command line. Results go to `out`, everything else to `err`; errors are thrown.
 namespace signweave::cli {
 
-using namespace calls;  // what is asked for, and how it is answered: app/calls
+using namespace calls;  // requests and how they are answered: app/calls
 
-/// Where a command speaks, and how.
+/// The output streams of a command, and how to write to them.
 struct Io {
   std::ostream& out;
   std::ostream& err;
   bool json = false;      ///< --json: one JSON document on `out`
   bool terminal = false;  ///< `err` is a terminal: progress bars may be drawn
-  int status = 0;         ///< what the process will end with; a command sets 1 where some of its inputs were at fault
+  int status = 0;         ///< the exit status of the process; a command sets 1 if some of its inputs were at fault
 };
 
-/// What a verb does once its words are parsed.
+/// What a verb runs after its options have been parsed.
 using Run = std::function<void(Io&)>;
 
 /// One verb. `setup` adds its options to `verb` and returns what to run after parsing.
@@ -46,14 +46,14 @@ struct Command {
   Run (*setup)(CLI::App& verb);
 };
 
-/// Every verb, in the order of `--help`. A new verb is a row here and a file command_x.cpp.
+/// All verbs, in the order of `--help`. A new verb is a row here and a file command_x.cpp.
 std::span<const Command> commands() noexcept;
 
-/// Parses and runs. Returns the exit status: 0 done (also for an empty answer), 1 some input or data is at fault, 2
-/// wrong usage. Never throws.
+/// Parses and runs a command line. Returns the exit status: 0 success (also for an empty answer), 1 some input or data
+/// is at fault, 2 wrong usage. Never throws.
 int dispatch(const std::vector<std::string>& words, Io& io);
 
-/// A message as one line, whatever a file's name holds.
+/// A message on one line, even if a file name in it contains line breaks.
 std::string one_line(std::string_view text);
 
 /// "signweave: WHERE: text" on `err`.
@@ -63,10 +63,10 @@ std::string advice_of(const Remedies& remedies);
 
 void print_notices(Io& io, const std::vector<Notice>& notices);
 
-/// Tells of recordings that are damaged and therefore left out, on `err`, and sets the exit status to 1.
+/// Reports on `err` recordings that are damaged and therefore left out, and sets the exit status to 1.
 void report_damage(const Database& database, Io& io);
 
-/// What a call tells of itself: notices and faults in lines on `err`, a fault with exit status 1. Borrows `io`.
+/// Prints the notices and faults of a call as lines on `err`; a fault sets exit status 1. Borrows `io`.
 calls::Listener listener_of(Io& io);
 
 Run create(CLI::App& verb);

@@ -21,9 +21,9 @@ Run backup(CLI::App& verb) {
     calls::BackupCall call;
   };
   auto options = std::make_shared<BackupArguments>();
-  verb.add_option("DB", options->database, "the database; others may write to it meanwhile")->required();
+  verb.add_option("DB", options->database, "the database; other processes may write to it meanwhile")->required();
   verb.add_option("BACKUP", options->folder,
-                  "folder of the backup: a new one, or an older backup, which gets what changed")
+                  "folder of the backup: a new one, or an older backup, to which changes are added")
       ->required();
   bind(verb, options->call);
   return [options](Io& io) {
@@ -31,7 +31,7 @@ Run backup(CLI::App& verb) {
     BackupReport report;
     {
       Progress progress(io, "backing up",
-                        "stopped; the backup has the states that it had, and the same command goes on");
+                        "stopped; the backup still has its previous states, and the same command continues");
       calls::Listener listener = listener_of(io);
       listener.progress = [&](double fraction) { progress.show(fraction); };
       report = calls::run(database, options->folder, options->call, listener);
@@ -56,12 +56,12 @@ Run restore(CLI::App& verb) {
   };
   auto options = std::make_shared<RestoreArguments>();
   verb.add_option("BACKUP", options->folder, "folder of the backup")->required();
-  verb.add_option("DB", options->database, "folder to make; must not exist or be empty")->required();
+  verb.add_option("DB", options->database, "folder to create; must not exist or be empty")->required();
   bind(verb, options->call);
   return [options](Io& io) {
     RestoreReport report;
     {
-      Progress progress(io, "restoring", "stopped; no database was made");
+      Progress progress(io, "restoring", "stopped; no database was created");
       calls::Listener listener = listener_of(io);
       listener.progress = [&](double fraction) { progress.show(fraction); };
       report = calls::run(options->folder, options->database, options->call, listener);
@@ -77,11 +77,11 @@ Run restore(CLI::App& verb) {
 
 Run compact_file(CLI::App& verb) {
   auto folder = std::make_shared<std::string>();
-  verb.add_option("DB", *folder, "the database; nobody else may have it open")->required();
+  verb.add_option("DB", *folder, "the database; no other process may have it open")->required();
   return [folder](Io& io) {
     kv::Compacted done;
     {
-      Progress progress(io, "compacting", "stopped; the database is as it was");
+      Progress progress(io, "compacting", "stopped; the database is unchanged");
       done = signweave::compact_file(*folder, [&](double fraction) { progress.show(fraction); });
     }
     if (io.json) {

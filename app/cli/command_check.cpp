@@ -13,7 +13,7 @@ namespace signweave::cli {
 
 namespace {
 
-/// As that of a database: the recordings of its newest state.
+/// Reports as for a database: the recordings of the newest state.
 CheckResult check_of_backup(const std::string& folder, const BackupProgress& progress) {
   CheckResult result;
   for (const BackupState& state : backup_states(folder))
@@ -30,7 +30,7 @@ Run check(CLI::App& verb) {
   return [folder](Io& io) {
     CheckResult result;
     {
-      Progress progress(io, "checking", "stopped before all was checked");
+      Progress progress(io, "checking", "stopped before everything was checked");
       const auto show = [&](double fraction) { progress.show(fraction); };
       if (is_backup(*folder)) {
         result = check_of_backup(*folder, show);

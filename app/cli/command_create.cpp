@@ -19,7 +19,7 @@ Run create(CLI::App& verb) {
     std::string documents = "document";
   };
   auto options = std::make_shared<CreateArguments>();
-  verb.add_option("DB", options->folder, "folder to make; must not exist or be empty")->required();
+  verb.add_option("DB", options->folder, "folder to create; must not exist or be empty")->required();
   verb.add_option("--engine", options->engine, "key-value engine")->check(one_of(kv::engines()))->capture_default_str();
   Binder binder(verb, {});
   calls::Field access_mode = calls::access_mode_field();

@@ -23,7 +23,7 @@ Run edit(CLI::App& verb) {
   add_reports(verb, options->delivery);
   return [options](Io& io) {
     const calls::EditCall& call = options->call;
-    // What is wrong with the words is told before anything is opened.
+    // Errors in the arguments are reported before anything is opened.
     for (const std::string& text : call.replace) parse_replacement(text);
     if (!call.swap.empty()) parse_swap(call.swap);
     if (call.replace.empty() && call.swap.empty()) throw CLI::RequiredError("--replace or --swap");

@@ -41,7 +41,7 @@ std::string check_measure(const std::string& name) {
   return fmt::format("no measure '{}'{}", printable(name), did_you_mean(name, known));
 }
 
-/// Those that were asked for, in the order of asking; none: each task's own.
+/// The requested measures, in the order of the request; if empty, each task's own.
 std::vector<Measure> measures_of(const EvaluateArguments& options) {
   std::vector<Measure> chosen;
   for (const std::string& name : options.measures) {
@@ -93,7 +93,7 @@ void run_evaluate(const EvaluateArguments& options, Io& io) {
   if (options.full) {
     for (const EvaluatedTask& task : made.tasks) io.out << full_text(task, bootstrap);
   }
-  // After what was computed is told: a plot that cannot be written loses nothing else.
+  // After the results are printed: if a plot cannot be written, nothing else is lost.
   if (!options.plot.empty()) draw(options.plot, made.tasks, bootstrap);
 }
 
@@ -106,9 +106,11 @@ Run evaluate(CLI::App& verb) {
       ->required();
   bind(verb, options->call, [&verb, options](std::string_view next) {
     if (next != "seed") return;
-    verb.add_option("--measure", options->measures, "a table of this measure, by its name in JSON; may be given again")
+    verb.add_option("--measure", options->measures,
+                    "a table of this measure, given by its name in JSON; may be repeated")
         ->check(check_measure);
-    verb.add_option("--spans", options->spans, "a table of spans: CSV with file, first frame, frames, perhaps a group")
+    verb.add_option("--spans", options->spans,
+                    "a table of spans: CSV with file, first frame, frames, optionally a group")
         ->type_name("FILE.csv");
     verb.add_flag("--full", options->full, "every measure of every group and hand, with intervals");
     verb.add_option("--plot", options->plot, "draw the summary with intervals (.svg)")

@@ -26,7 +26,7 @@ struct ExportArguments {
   calls::ExportCall call;
 };
 
-/// ".bvh" for "bvh" too.
+/// Accepts "bvh" for ".bvh".
 std::string with_dot(const std::string& ending) {
   return ending.starts_with('.') ? ending : "." + ending;
 }
@@ -50,7 +50,8 @@ void export_one(const ExportArguments& options, Io& io) {
 
 void export_many(const ExportArguments& options, Io& io) {
   if (options.outputs.size() != 1) {
-    throw CLI::ValidationError("-o", "several recordings go into one folder: name it once, and their files with --as");
+    throw CLI::ValidationError("-o",
+                               "several recordings are written to one folder: give it once, and the files with --as");
   }
   if (!options.call.character.empty()) {
     throw CLI::ValidationError("--character", "is for one recording and one file");
@@ -61,7 +62,7 @@ void export_many(const ExportArguments& options, Io& io) {
   report_damage(database, io);
   calls::FolderExported done;
   {
-    Progress progress(io, "exporting", "stopped; the files that were written before are there, each whole");
+    Progress progress(io, "exporting", "stopped; the files written before are complete");
     calls::Listener listener = listener_of(io);
     listener.progress = [&](double fraction) { progress.show(fraction); };
     done = calls::run(database, wanted, listener);
@@ -80,10 +81,10 @@ void export_many(const ExportArguments& options, Io& io) {
 Run export_recording(CLI::App& verb) {
   auto options = std::make_shared<ExportArguments>();
   verb.add_option("DB", options->database, "the database")->required();
-  verb.add_option("RECORDING", options->recordings, "name of the recording; several go into a folder");
+  verb.add_option("RECORDING", options->recordings, "name of the recording; several are written to a folder");
   Binder binder(verb, [&verb, options](std::string_view next) {
     if (next != "from") return;
-    verb.add_flag("--all", options->all, "every recording, into the folder of -o");
+    verb.add_flag("--all", options->all, "every recording, written to the folder of -o");
     verb.add_option("-o,--output", options->outputs,
                     fmt::format("file to write: {}; may be given several times; with --all, several recordings or --as "
                                 "a folder",
@@ -91,7 +92,7 @@ Run export_recording(CLI::App& verb) {
         ->required()
         ->allow_extra_args(false);
     verb.add_option("--as", options->endings,
-                    "endings of the files of each recording in a folder; .bvh .face.csv .eaf where not given")
+                    "extensions of the files of each recording in a folder; .bvh .face.csv .eaf if not given")
         ->type_name("ENDING");
   });
   const auto bind_rest = [&binder](const calls::Field& field, auto& member) {
@@ -100,8 +101,8 @@ Run export_recording(CLI::App& verb) {
   fields(bind_rest, options->call);
   return [options](Io& io) {
     if (options->all == !options->recordings.empty()) {
-      throw CLI::ValidationError(options->all ? "--all stands for every recording: name none beside it"
-                                              : "name a RECORDING, several, or --all");
+      throw CLI::ValidationError(options->all ? "--all selects every recording: do not name any in addition"
+                                              : "give one or several RECORDINGs, or --all");
     }
     if (options->all || options->recordings.size() > 1 || !options->endings.empty()) {
       export_many(*options, io);

@@ -20,10 +20,10 @@ struct ImportArguments {
   calls::ImportCall call;
 };
 
-/// One recording on `out`, or its fault on `err`.
+/// Prints one recording on `out`, or its error on `err`.
 void print(const calls::Imported& imported, Io& io) {
   if (imported.error) {
-    // What a file is to blame for begins with the file; what the disk is, does not tell whose turn it was.
+    // Errors caused by a file begin with its name; errors of the disk do not say which recording was being imported.
     io.err << "signweave: " << (imported.error->code() == ErrorCode::io ? imported.name + ": " : "")
            << one_line(imported.error->what()) << one_line(advice_of(imported.error->remedies())) << '\n';
     io.status = 1;
@@ -42,11 +42,11 @@ void print(const calls::Imported& imported, Io& io) {
     line += ", " + counted(report.signs, "sign");
     if (report.defects > 0) line += ", " + counted(report.defects, "defect");
   }
-  io.out << line << std::endl;  // flushed: it is stored, and a pipe or log shows it now
+  io.out << line << std::endl;  // flushed: it is stored, so a pipe or log shows it now
 }
 
 void run_import(const ImportArguments& options, Io& io) {
-  const ImportOptions how = options_of(options.call);
+  const ImportOptions import_options = options_of(options.call);
   Database database(options.folder, kv::Access::read_write);
   database.announce("signweave import");
   const std::vector<std::filesystem::path> inputs(options.inputs.begin(), options.inputs.end());
@@ -54,18 +54,18 @@ void run_import(const ImportArguments& options, Io& io) {
   print_notices(io, pairing.notices);
   if (pairing.jobs.empty()) {
     throw Error(ErrorCode::not_found,
-                fmt::format("no motion or annotation file in {}; signweave formats lists their endings",
+                fmt::format("no motion or annotation file in {}; signweave formats lists their extensions",
                             fmt::join(options.inputs, ", ")));
   }
 
   nlohmann::json recordings = nlohmann::json::array();
   {
-    Progress progress(io, "importing");  // one bar for all; it must be gone before a line is printed
-    std::size_t looked_at = 0;
+    Progress progress(io, "importing");  // one bar for all; it must be erased before a line is printed
+    std::size_t finished = 0;
     try {
-      calls::run(database, pairing, how, {.progress = [&](double fraction) { progress.show(fraction); }},
+      calls::run(database, pairing, import_options, {.progress = [&](double fraction) { progress.show(fraction); }},
                  [&](const calls::Imported& imported) {
-                   ++looked_at;
+                   ++finished;
                    progress.hide();
                    print(imported, io);
                    if (io.json) recordings.push_back(json_of(imported));
@@ -74,8 +74,8 @@ void run_import(const ImportArguments& options, Io& io) {
       if (error.code() != ErrorCode::cancelled) throw;
       throw Error(
           ErrorCode::cancelled,
-          fmt::format("stopped after {} of {}, which are stored whole; the same command goes on with the others",
-                      looked_at, counted(pairing.jobs.size(), "recording")));
+          fmt::format("stopped after {} of {}, which are completely stored; the same command continues with the others",
+                      finished, counted(pairing.jobs.size(), "recording")));
     }
   }
   learn(database, listener_of(io));

@@ -156,7 +156,7 @@ void info_of_annotation(const std::string& path, Io& io) {
   print_notices(io, notices);
 }
 
-/// What a score says, for people; with --json what it is of.
+/// What a score contains, for people; with --json what it is about.
 void info_of_score(const std::string& path, Io& io) {
   const Score score = score_from_json(read_file(path, kLargestScore), path);
   if (!io.json) {
@@ -190,8 +190,8 @@ Run info(CLI::App& verb) {
                       ", an annotation file " + readable_extensions(FileKind::annotation) +
                       ", a face capture (.face.csv) or a score (.json)")
       ->required();
-  verb.add_option("RECORDING", options->recording, "of a database: all that is known of this one");
-  verb.add_option("--rig", options->rig, "a mapping file (part = joint) that says which joint plays which part")
+  verb.add_option("RECORDING", options->recording, "of a database: everything known about this recording");
+  verb.add_option("--rig", options->rig, "a mapping file (part = joint) that assigns joints to parts of the body")
       ->type_name("FILE");
   bind(verb, options->motion);
   return [options](Io& io) {
@@ -210,7 +210,7 @@ Run info(CLI::App& verb) {
         info_of_recording(options->path, options->recording, io);
       }
     } else if (!options->recording.empty()) {
-      throw CLI::ValidationError(options->path + " is no database, so it has no recording " + options->recording);
+      throw CLI::ValidationError(options->path + " is not a database, so it has no recording " + options->recording);
     } else if (!std::filesystem::exists(options->path, ignored)) {
       throw Error(ErrorCode::not_found, options->path + ": no such file or database");
     } else if (!std::filesystem::is_regular_file(options->path, ignored)) {
@@ -225,7 +225,7 @@ Run info(CLI::App& verb) {
       info_of_score(options->path, io);
     } else if (kind == FileKind::motion_part) {
       throw Error(ErrorCode::unsupported, options->path +
-                                              ": holds no motion of its own; name a motion file beside it " +
+                                              ": holds no motion of its own; name a motion file next to it " +
                                               readable_extensions(FileKind::motion));
     } else {
       throw Error(ErrorCode::unsupported,

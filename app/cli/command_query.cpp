@@ -23,7 +23,7 @@ struct QueryArguments {
   calls::QueryCall call;
 };
 
-/// One file for each recording.
+/// Writes one file per recording.
 void write_files(const QueryArguments& options, const Database& database, const calls::QueryReport& report, Io& io) {
   std::filesystem::create_directories(options.folder_of_files);
   for (const calls::QueryDocument& one : calls::documents_of(database, report.answers)) {
@@ -35,7 +35,8 @@ void write_files(const QueryArguments& options, const Database& database, const 
 
 void run_query(const QueryArguments& options, Io& io) {
   if ((options.format == "eaf") != !options.folder_of_files.empty()) {
-    throw CLI::ValidationError("--format", "eaf writes one file a recording: name their folder with -o, and give both");
+    throw CLI::ValidationError("--format",
+                               "eaf writes one file per recording: give --format eaf and -o FOLDER together");
   }
   const Database database(options.folder, kv::Access::read_only);
   report_damage(database, io);
@@ -61,7 +62,7 @@ Run query(CLI::App& verb) {
   verb.add_option("DB", options->folder, "the database")->required();
   bind(verb, options->call, [&verb, options](std::string_view next) {
     if (next != "limit") return;
-    verb.add_option("--format", options->format, "of the answer")
+    verb.add_option("--format", options->format, "format of the answer")
         ->check(one_of({"table", "json", "csv", "eaf"}))
         ->capture_default_str();
     verb.add_option("-o,--output", options->folder_of_files, "the folder for --format eaf");

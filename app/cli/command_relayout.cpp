@@ -39,8 +39,8 @@ Run relayout(CLI::App& verb) {
       } catch (const Error& error) {
         if (error.code() != ErrorCode::cancelled) throw;
         throw Error(ErrorCode::cancelled,
-                    fmt::format("stopped after {} were stored anew, whole; the others are as they were, and the same "
-                                "command goes on with them",
+                    fmt::format("stopped after {} were stored anew; the others are unchanged, and the same "
+                                "command continues with them",
                                 counted(changed, "recording")));
       }
     }

@@ -32,10 +32,10 @@ namespace fs = std::filesystem;
 using namespace std::chrono_literals;
 using nlohmann::json;
 
-/// Without a sign of life for so long the browser is given up.
+/// After this time without progress the browser is given up.
 constexpr auto kPatience = 120s;
 
-/// What is drawn, as far as a call's fields tell it.
+/// What is drawn, as far as the fields of a call specify it.
 struct Drawn {
   std::string utterance;
   std::string recording;
@@ -50,14 +50,14 @@ template <class Visit>
 void fields(Visit& visit, Drawn& drawn) {
   using calls::Field;
   visit(Field{.name = "utterance",
-              .help = "glosses, as 'sign' takes them; a recording is drawn with --recording",
+              .help = "glosses, as for 'sign'; a recording is drawn with --recording",
               .words = "UTTERANCE"},
         drawn.utterance);
   visit(Field{.name = "recording", .help = "draw this recording instead"}, drawn.recording);
   visit(Field{.name = "replace", .help = "change the recording, as 'edit' does", .several_words = true}, drawn.replace);
   visit(Field{.name = "swap", .help = "change the recording, as 'edit' does"}, drawn.swap);
-  visit(Field{.name = "from", .help = "of the recording: annotation time in ms to begin at"}, drawn.from);
-  visit(Field{.name = "to", .help = "of the recording: annotation time in ms to end at"}, drawn.to);
+  visit(Field{.name = "from", .help = "annotation time in ms of the recording to begin at"}, drawn.from);
+  visit(Field{.name = "to", .help = "annotation time in ms of the recording to end at"}, drawn.to);
   calls::signing_fields(visit, drawn.how);
 }
 
@@ -95,7 +95,7 @@ class Folder {
  public:
   Folder() {
     std::string name = (fs::temp_directory_path() / "signweave-render-XXXXXX").string();
-    if (::mkdtemp(name.data()) == nullptr) throw Error(ErrorCode::io, name + ": no folder could be made");
+    if (::mkdtemp(name.data()) == nullptr) throw Error(ErrorCode::io, name + ": no folder could be created");
     path_ = name;
   }
   Folder(const Folder&) = delete;
@@ -122,7 +122,7 @@ std::string percent_encoded(const std::string& text) {
   return encoded;
 }
 
-/// What the studio's page is told.
+/// The task given to the studio's page.
 json task_of(const RenderArguments& given, const std::string& database, const std::string& character,
              const std::string& put) {
   const Drawn& drawn = given.drawn;
@@ -160,9 +160,9 @@ json task_of(const RenderArguments& given, const std::string& database, const st
           {"put", put}};
 }
 
-/// Waits until the page has said that it is done; its last words.
+/// Waits until the page has reported that it is done; returns its final report.
 json wait_for(Browser& browser, const fs::path& folder, Io& io) {
-  Progress progress(io, "drawing", "stopped before it was drawn; nothing was written");
+  Progress progress(io, "drawing", "stopped before the drawing was finished; nothing was written");
   auto heard = std::chrono::steady_clock::now();
   fs::file_time_type last{};
   for (;;) {
@@ -172,35 +172,38 @@ json wait_for(Browser& browser, const fs::path& folder, Io& io) {
     }
     if (fs::exists(folder / "done")) return json::parse(read_file(folder / "done"), nullptr, false);
     if (!browser.running()) {
-      throw Error(ErrorCode::io, fmt::format("the browser ended before it was done: {}", browser.last_words()));
+      throw Error(ErrorCode::io,
+                  fmt::format("the browser ended before the drawing was finished: {}", browser.last_words()));
     }
     const auto now = std::chrono::steady_clock::now();
     const fs::file_time_type said = fs::last_write_time(folder / "progress", missing);
     if (!missing && said != last) {
       last = said;
       heard = now;
-      const json told = json::parse(read_file(folder / "progress"), nullptr, false);
-      if (told.is_object()) progress.show(told.value("done", 0.0) / std::max(told.value("of", 1.0), 1.0));
+      const json report = json::parse(read_file(folder / "progress"), nullptr, false);
+      if (report.is_object()) progress.show(report.value("done", 0.0) / std::max(report.value("of", 1.0), 1.0));
     }
     if (now - heard > kPatience) {
       throw Error(ErrorCode::io,
                   fmt::format("the browser has drawn nothing for two minutes: {}", browser.last_words()));
     }
-    if (Interrupts::noted()) throw Error(ErrorCode::cancelled, "stopped before it was drawn; nothing was written");
+    if (Interrupts::noted())
+      throw Error(ErrorCode::cancelled, "stopped before the drawing was finished; nothing was written");
     std::this_thread::sleep_for(20ms);
   }
 }
 
-void keep(const fs::path& from, const fs::path& to) {
+void save_copy(const fs::path& from, const fs::path& to) {
   AtomicFile file(to.string());
   file.write(read_file(from));
   file.commit();
 }
 
-/// Puts what came where it was wanted: "film.webm", "picture.png", or of several pictures "picture-00001.png", ….
-std::vector<std::string> keep_all(const fs::path& folder, const std::string& output) {
+/// Moves the results to the requested output: "film.webm", "picture.png", or for several pictures "picture-00001.png",
+/// ….
+std::vector<std::string> save_all(const fs::path& folder, const std::string& output) {
   if (fs::exists(folder / "film.webm")) {
-    keep(folder / "film.webm", output);
+    save_copy(folder / "film.webm", output);
     return {output};
   }
   std::vector<fs::path> pictures;
@@ -210,14 +213,14 @@ std::vector<std::string> keep_all(const fs::path& folder, const std::string& out
   std::sort(pictures.begin(), pictures.end());
   if (pictures.empty()) throw Error(ErrorCode::io, "the browser has drawn nothing");
   if (pictures.size() == 1) {
-    keep(pictures.front(), output);
+    save_copy(pictures.front(), output);
     return {output};
   }
   std::vector<std::string> files;
   for (const fs::path& picture : pictures) {
     const fs::path to = fs::path(output).replace_extension();
     files.push_back(fmt::format("{}-{}", to.string(), picture.filename().string()));
-    keep(picture, files.back());
+    save_copy(picture, files.back());
   }
   return files;
 }
@@ -226,11 +229,12 @@ calls::Characters characters_of(const RenderArguments& given) {
   if (!given.drawn.how.character.empty()) {
     return calls::Characters(calls::read_character_file(given.drawn.how.character));
   }
-  const fs::path beside = fs::path(given.studio) / "characters";
-  return fs::is_directory(beside) ? calls::Characters(beside) : calls::Characters();
+  const fs::path of_studio = fs::path(given.studio) / "characters";
+  return fs::is_directory(of_studio) ? calls::Characters(of_studio) : calls::Characters();
 }
 
-/// Reads the moments of --at. Of words behind it the parser cannot say which are the utterance: what is no number is.
+/// Reads the moments of --at. The parser cannot tell which words after --at are the utterance: those that are not
+/// numbers.
 void take_moments(RenderArguments& given) {
   for (const std::string& word : given.moments) {
     std::int64_t ms = 0;
@@ -240,14 +244,15 @@ void take_moments(RenderArguments& given) {
     } else if (given.drawn.utterance.empty() && !word.empty() && word.front() != '-' && !given.at.empty()) {
       given.drawn.utterance = word;
     } else {
-      throw Error(ErrorCode::bad_input,
-                  fmt::format("--at: '{}' is no moment; give milliseconds from the first frame, such as --at 100 200",
-                              printable(word)));
+      throw Error(
+          ErrorCode::bad_input,
+          fmt::format("--at: '{}' is not a moment; give milliseconds from the first frame, such as --at 100 200",
+                      printable(word)));
     }
   }
 }
 
-/// What would have no effect is told, not passed over.
+/// Options that would have no effect are refused, not ignored.
 void check_options(const RenderArguments& given) {
   const Drawn& drawn = given.drawn;
   if (drawn.utterance.empty() == drawn.recording.empty()) {
@@ -303,7 +308,7 @@ void run_render(const RenderArguments& given, Io& io) {
     Browser browser(browser_program, server.url() + "/render.html#" + percent_encoded(task.dump()), scratch.path());
     said = wait_for(browser, drawn_here, io);
   }
-  const std::vector<std::string> files = keep_all(drawn_here, given.output);
+  const std::vector<std::string> files = save_all(drawn_here, given.output);
   const auto contents = databases.all().front()->database().contents();
   std::map<std::string, std::string> declared;
   for (const RecordingInfo& info : contents->recordings)
@@ -334,17 +339,17 @@ Run render(CLI::App& verb) {
       ->type_name("MS");
   verb.add_option("--size", options->size, "WIDTHxHEIGHT, even numbers up to 4096")
       ->check([](const std::string& text) {
-        return parse_size(text) ? std::string() : fmt::format("'{}' is no size such as 1280x720", printable(text));
+        return parse_size(text) ? std::string() : fmt::format("'{}' is not a size such as 1280x720", printable(text));
       })
       ->capture_default_str();
   verb.add_option("--rate", options->rate, "pictures a second")->check(within(1.0, 240.0))->capture_default_str();
   verb.add_option("--view", options->view, "front, side, hands")
       ->check(one_of({"front", "side", "hands"}))
       ->capture_default_str();
-  verb.add_option("--studio", options->studio, "the folder that studio/build made")
+  verb.add_option("--studio", options->studio, "the folder built by studio/build")
       ->envname("SIGNWEAVE_STUDIO")
       ->required();
-  verb.add_option("--browser", options->browser, "the Chromium that draws; $CHROMIUM, or the system's");
+  verb.add_option("--browser", options->browser, "the Chromium to draw with; if not given, $CHROMIUM or the system's");
   return [options](Io& io) {
     take_moments(*options);
     run_render(*options, io);

@@ -55,15 +55,15 @@ void print_table(const ProposedPhases& proposed, Io& io) {
   io.out << format_table(rows);
 }
 
-/// A person's annotation must not be lost to proposals.
+/// A person's annotation must not be overwritten by proposals.
 void require_new(const std::string& path) {
   std::error_code ignored;
   if (!std::filesystem::exists(path, ignored)) return;
   throw Error(ErrorCode::already_exists,
-              path + ": is there already, and may hold a person's annotation; give another name, or --overwrite");
+              path + ": exists already, and may hold a person's annotation; give another name, or --overwrite");
 }
 
-/// What is proposed, and the name of the motion file that it is about.
+/// The proposed phases, and the name of the motion file they belong to.
 struct Proposals {
   calls::Segmented made;
   std::string motion;
@@ -71,7 +71,7 @@ struct Proposals {
 
 Proposals of_recording(const SegmentArguments& options, Io& io) {
   if (!options.rig.empty()) {
-    throw Error(ErrorCode::bad_input, "--rig is for a motion file; a recording has the mapping it was imported with");
+    throw Error(ErrorCode::bad_input, "--rig is for a motion file; a recording uses the mapping it was imported with");
   }
   const Database database(options.motion, kv::Access::read_only);
   report_damage(database, io);
@@ -117,8 +117,9 @@ Run segment(CLI::App& verb) {
   verb.add_option("RECORDING", options->recording, "the name of a recording in it");
   verb.add_option("-o,--output", options->output, "annotation file to write (.eaf); without it phases are only counted")
       ->check([](const std::string& path) { return check_extension(path, {".eaf"}); });
-  verb.add_flag("--overwrite", options->overwrite, "take the place of an annotation file that is there already");
-  verb.add_option("--rig", options->rig, "mapping file: a line 'part = joint' for each part that is not told right")
+  verb.add_flag("--overwrite", options->overwrite, "replace an existing annotation file");
+  verb.add_option("--rig", options->rig,
+                  "mapping file: a line 'part = joint' for each part that is not recognized correctly")
       ->type_name("FILE");
   bind(verb, options->reading);
   return [options](Io& io) { run_segment(*options, io); };

@@ -67,13 +67,13 @@ std::string read_token(const std::string& file) {
   return token;
 }
 
-/// A folder of this process alone, gone with it.
+/// A folder for this process only, removed at its end.
 class Scratch {
  public:
   Scratch() {
     std::string name = (std::filesystem::temp_directory_path() / "signweave-XXXXXX").string();
     if (::mkdtemp(name.data()) == nullptr) {
-      throw Error(ErrorCode::io, fmt::format("{}: no folder for uploads could be made", name));
+      throw Error(ErrorCode::io, fmt::format("{}: the folder for uploads could not be created", name));
     }
     path_ = name;
   }
@@ -88,7 +88,7 @@ class Scratch {
   std::filesystem::path path_;
 };
 
-/// As many connections as the system lets the process have.
+/// Raises the limit of open connections to what the system allows the process.
 void raise_file_limit() {
   rlimit limit{};
   if (::getrlimit(RLIMIT_NOFILE, &limit) != 0 || limit.rlim_cur >= limit.rlim_max) return;
@@ -113,14 +113,14 @@ void run_serve(const ServeArguments& given, Io& io) {
   if (!given.media.empty() && !std::filesystem::is_directory(given.media)) {
     throw Error(ErrorCode::not_found, fmt::format("{}: no folder", given.media));
   }
-  (void)server::Access(options);  // before databases are opened, which may take a while
+  (void)server::AccessControl(options);  // before databases are opened, which may take a while
 
   server::ServedDatabases databases;
   if (!given.characters.empty()) {
     databases.characters = calls::Characters(given.characters);
-  } else if (const auto beside = options.files / "characters";
-             !options.files.empty() && std::filesystem::is_directory(beside)) {
-    databases.characters = calls::Characters(beside);
+  } else if (const auto served_characters = options.files / "characters";
+             !options.files.empty() && std::filesystem::is_directory(served_characters)) {
+    databases.characters = calls::Characters(served_characters);
   }
   databases.media = given.media;
   for (const std::string& folder : given.folders) databases.add(folder, given.writable);
@@ -128,7 +128,7 @@ void run_serve(const ServeArguments& given, Io& io) {
     report_damage(one->database(), io);
     one->signing().warm_up();
   }
-  io.status = 0;  // what is damaged was told, and is left out
+  io.status = 0;  // damage was reported, and is left out
   raise_file_limit();
   const Scratch scratch;
   options.scratch = scratch.path();
@@ -145,48 +145,45 @@ void run_serve(const ServeArguments& given, Io& io) {
 Run serve(CLI::App& verb) {
   auto options = std::make_shared<ServeArguments>();
   server::ServerOptions& server = options->server;
-  verb.add_option("DB", options->folders, "databases; each is served under its folder's name without ending")
+  verb.add_option("DB", options->folders, "databases; each is served under its folder's name without extension")
       ->required();
   verb.add_option("--listen", options->listen,
-                  "where; port 0 takes one that is free. Any other address than loopback requires a token")
+                  "address and port; port 0 is any free one. Addresses other than loopback require a token")
       ->check([](const std::string& text) {
         return parse_listen(text) ? std::string()
                                   : "'" + printable(text) + "' is not ADDRESS:PORT, such as 127.0.0.1:8080 or [::1]:0";
       })
       ->capture_default_str();
-  verb.add_flag("--writable", options->writable, "let imports and removals change the databases");
-  verb.add_option("--files", server.files, "serve the files of this folder beside the calls");
-  verb.add_option(
-      "--characters", options->characters,
-      "folder of the characters (.glb) that motions may be shown on; 'characters' of the served files where "
-      "not given");
-  verb.add_option("--media", options->media, "folder of the videos that annotations link");
-  verb.add_option(
-      "--token-file", options->token_file,
-      "the token that clients must send, as 'Authorization: Bearer TOKEN'; SIGNWEAVE_TOKEN where not given");
+  verb.add_flag("--writable", options->writable, "allow imports and removals to change the databases");
+  verb.add_option("--files", server.files, "serve the files of this folder in addition to the calls");
+  verb.add_option("--characters", options->characters,
+                  "folder of the characters (.glb) that motions may be shown on; 'characters' of the served files if "
+                  "not given");
+  verb.add_option("--media", options->media, "folder of the videos that annotations link to");
+  verb.add_option("--token-file", options->token_file,
+                  "the token that clients must send, as 'Authorization: Bearer TOKEN'; SIGNWEAVE_TOKEN if not given");
   verb.add_option("--allow-origin", server.allowed_origins,
-                  "let pages of this origin, such as https://signs.example.org, ask; may be given several times")
+                  "allow requests from pages of this origin, such as https://signs.example.org; may be repeated")
       ->allow_extra_args(false);
-  verb.add_option("--threads", server.threads, "that serve connections and streams")
+  verb.add_option("--threads", server.threads, "threads that serve connections and streams")
       ->check(within(std::int64_t{1}, std::int64_t{64}))
       ->capture_default_str();
-  verb.add_option("--workers", server.workers, "that answer calls")
+  verb.add_option("--workers", server.workers, "threads that answer calls")
       ->check(within(std::int64_t{1}, std::int64_t{64}))
       ->capture_default_str();
-  verb.add_option("--max-connections", server.limits.connections, "open at once")
+  verb.add_option("--max-connections", server.limits.connections, "connections open at once")
       ->check(within(std::int64_t{1}, std::int64_t{1'000'000}))
       ->capture_default_str();
-  verb.add_option("--max-streams", server.limits.streams, "open at once")
+  verb.add_option("--max-streams", server.limits.streams, "streams open at once")
       ->check(within(std::int64_t{0}, std::int64_t{1'000'000}))
       ->capture_default_str();
   verb.add_option("--max-per-address", server.limits.connections_per_address,
-                  "connections of one address (0: no limit on loopback, 256 elsewhere)");
+                  "connections per address (0: no limit on loopback, 256 elsewhere)");
   verb.add_option("--requests-per-second", server.limits.requests_per_second,
-                  "of one address, in the mean (0: no limit on loopback, 100 elsewhere)")
+                  "per address, on average (0: no limit on loopback, 100 elsewhere)")
       ->check(within(0.0, 1e6));
-  verb.add_flag(
-      "--no-io-uring", options->no_io_uring,
-      "send the frames of each stream by a call of its own, as where the kernel does not let io_uring be used");
+  verb.add_flag("--no-io-uring", options->no_io_uring,
+                "send the frames of each stream by a separate system call, as if the kernel did not allow io_uring");
   return [options](Io& io) { run_serve(*options, io); };
 }
 

@@ -14,11 +14,11 @@
 namespace signweave::cli {
 namespace {
 
-/// What a score has decided already. (Named to CLI11, its help would list them all.)
+/// Options whose values a score has already decided. (Passed to CLI11, its help would list them all.)
 constexpr const char* kDecided[] = {"--transition", "--duration", "--tempo",   "--align",
                                     "--junction",   "--rate",     "--missing", "--explain"};
 
-/// "bvh" of "out.bvh", and what is made beside.
+/// "bvh" of "out.bvh", and what is written alongside.
 std::vector<std::string> endings_of(const Delivery& delivery) {
   std::vector<std::string> endings;
   for (const std::string& file : delivery.outputs) {
@@ -45,7 +45,7 @@ Run sign(CLI::App& verb) {
   });
   CLI::Option* const utterance = verb.get_option("UTTERANCE")->required(false);
   verb.add_option("--from", options->from,
-                  "render a score that --score wrote, instead of an utterance: nothing is chosen anew")
+                  "render a score written by --score instead of an utterance: nothing is chosen again")
       ->excludes(utterance);
   const calls::Field frames = calls::frames_field();
   verb.add_option("--frames", options->frames, frames.help)->needs("--from")->check(frames.check);
@@ -57,7 +57,7 @@ Run sign(CLI::App& verb) {
     }
     std::optional<Score> score;
     if (!options->from.empty()) score = score_from_json(read_file(options->from, kLargestScore), options->from);
-    // What is wrong with the words is reported before anything is opened.
+    // Errors in the arguments are reported before anything is opened.
     const std::string title = score ? options->from : title_of(options->call);
     const Database database(options->folder, kv::Access::read_only);
     report_damage(database, io);

@@ -16,7 +16,8 @@
 namespace signweave::cli {
 namespace {
 
-constexpr std::size_t kMostTableRows = 40;  ///< of a table of pairs, glosses or n-grams: the rest is counted
+constexpr std::size_t kMostTableRows =
+    40;  ///< rows shown of a table of pairs, glosses or n-grams: the rest is only counted
 
 struct StatsArguments {
   std::string folder;
@@ -53,7 +54,7 @@ void print_tables(const calls::StatsCall& options, const calls::Counted& counted
   if (hands.size() > 1) io.out << '\n' << format_table(hands);
   for (const NamedSummary& one : summaries) {
     if (!one.summary.inferred) continue;
-    io.out << fmt::format("{}: gaps between signs, for no phases are annotated\n",
+    io.out << fmt::format("{}: gaps between signs, because no phases are annotated\n",
                           one.recording.empty() ? "(all)" : one.recording);
   }
 }
@@ -89,7 +90,7 @@ Run stats(CLI::App& verb) {
   bind(verb, options->call);
   verb.add_option("--plot", options->plot, "draw the transitions, split into retraction and preparation (.svg)")
       ->check([](const std::string& path) { return check_extension(path, {".svg"}); });
-  verb.add_option("--format", options->format, "of the answer")
+  verb.add_option("--format", options->format, "format of the answer")
       ->check(one_of({"table", "json", "csv"}))
       ->capture_default_str();
   return [options](Io& io) { run_stats(*options, io); };

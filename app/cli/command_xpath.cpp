@@ -18,7 +18,7 @@ Run xpath(CLI::App& verb) {
   verb.add_option("DB", options->folder, "the database")->required();
   bind(verb, options->call);
   return [options](Io& io) {
-    // What is wrong with the expression is told before anything is opened.
+    // Errors in the expression are reported before anything is opened.
     const xpath::Expression expression(options->call.expression);
     const Database database(options->folder, kv::Access::read_only);
     report_damage(database, io);

@@ -24,12 +24,12 @@ double ms_of(Seconds seconds) {
   return seconds.count() * 1000.0;
 }
 
-/// What a part of the body keeps of retraction and preparation.
+/// The frames of retraction and preparation that a part of the body keeps.
 std::string part_of(const TransitionCut& cut) {
   return fmt::format("{}+{}{}", cut.retraction_frames, cut.preparation_frames, cut.waits ? " waits" : "");
 }
 
-/// How the transitions were timed, where the corpus tells it.
+/// How the durations of transitions were determined, if the corpus has any.
 std::string timing_of(const DurationFit& fit) {
   const auto ms = [](Seconds time) { return std::llround(ms_of(time)); };
   if (fit.count == 0) return {};
@@ -44,7 +44,7 @@ std::string timing_of(const DurationFit& fit) {
                      ms(fit.weights.empty() ? fit.fitted_error : fit.mean_error));
 }
 
-/// What the method had to go by, where it asks for it.
+/// The number of captured transitions available to the method, if it uses them.
 std::string captured_of(const Synthesized& made) {
   if (!made.captured_transitions) return {};
   return fmt::format("made after {}\n", counted(*made.captured_transitions, "captured transition"));
@@ -69,8 +69,7 @@ void print_junctions(const Synthesized& made, Io& io) {
   io.out << '\n' << format_table(rows) << timing_of(made.durations) << captured_of(made);
 }
 
-/// Before anything is written: reports how large the large files will be, and refuses those that do not fit on the
-/// disk.
+/// To be called before anything is written: announces the size of large files, and refuses if the disk has no room.
 void announce(const std::vector<std::string>& outputs, const FileContent& content, Io& io) {
   constexpr std::uint64_t kLarge = std::uint64_t{100} << 20;
   for (const std::string& path : outputs) {
@@ -95,7 +94,7 @@ void add_outputs(CLI::App& verb, std::vector<std::string>& outputs) {
 void deliver(const calls::Exported& made, const std::vector<std::string>& outputs, Io& io) {
   print_notices(io, made.notices);
   {
-    Progress progress(io, "writing", "stopped; the file that was being written is not there");
+    Progress progress(io, "writing", "stopped; the file being written was discarded");
     FileContent written = made.content();
     written.progress = [&](double fraction) { progress.show(fraction); };
     announce(outputs, written, io);
@@ -113,10 +112,9 @@ calls::SharedCharacter character_of(const std::string& file) {
 }
 
 void add_reports(CLI::App& verb, Delivery& delivery) {
-  verb.add_option(
-          "--score", delivery.score,
-          "also write the score (.json): which captured frames and transitions the result is made of, and when; "
-          "'sign DB --from' renders it again")
+  verb.add_option("--score", delivery.score,
+                  "also write the score (.json): the captured frames and transitions of the result, and their times; "
+                  "'sign DB --from' renders it again")
       ->check([](const std::string& path) { return check_extension(path, {".json"}); });
   verb.add_flag("--timings", delivery.timings, "show how long each step took");
 }
@@ -124,7 +122,7 @@ void add_reports(CLI::App& verb, Delivery& delivery) {
 void deliver(const Synthesized& made, const calls::SynthesisChoices& choices, const Delivery& delivery,
              const std::string& title, calls::SharedCharacter character, Io& io) {
   {
-    Progress progress(io, "writing", "stopped; the file that was being written is not there");
+    Progress progress(io, "writing", "stopped; the file being written was discarded");
     FileContent content = content_of(made, choices, title, character);
     content.progress = [&](double fraction) { progress.show(fraction); };
     announce(delivery.outputs, content, io);

@@ -9,21 +9,21 @@
 
 namespace signweave::cli {
 
-/// Where `sign` and `edit` put what they made.
+/// Where `sign` and `edit` write their results.
 struct Delivery {
   std::vector<std::string> outputs;
-  std::string score;  ///< file for the score; empty: none
+  std::string score;  ///< file for the score; empty: not written
   bool timings = false;
 };
 
 void add_reports(CLI::App& verb, Delivery& delivery);
 
-/// Writes the files that were asked for, and what was asked to be told. `title` heads a contact sheet.
+/// Writes the requested files, and prints the requested reports. `title` is the heading of a contact sheet.
 void deliver(const Synthesized& made, const calls::SynthesisChoices& choices, const Delivery& delivery,
              const std::string& title, calls::SharedCharacter character, Io& io);
-/// Writes what `export` and `convert` have to write, and tells what was declared of it.
+/// Writes the outputs of `export` and `convert`, and reports what was declared about them.
 void deliver(const calls::Exported& made, const std::vector<std::string>& outputs, Io& io);
-/// The character of a choice; null where none was asked for.
+/// Reads the chosen character; null if `file` is empty.
 calls::SharedCharacter character_of(const std::string& file);
 
 }  // namespace signweave::cli

@@ -21,21 +21,21 @@
 namespace signweave::cli {
 namespace {
 
-constexpr int kInterrupted = 130;  // as shells have it: 128 and the number of SIGINT
+constexpr int kInterrupted = 130;  // as in shells: 128 and the number of SIGINT
 
 constexpr Command kCommands[] = {
-    {"create", "make an empty database", "signweave create corpus.db --access-mode by_frame:64", create},
+    {"create", "create an empty database", "signweave create corpus.db --access-mode by_frame:64", create},
     {"import", "store recordings: motion files and their annotation",
      "signweave import corpus.db recordings/ --sign-tier 'Gloss RH:right'", import},
     {"remove", "remove a recording", "signweave remove corpus.db meteo", remove},
-    {"info", "what a database or a file holds", "signweave info meteo.bvh", info},
+    {"info", "show what a database or a file contains", "signweave info meteo.bvh", info},
     {"check", "verify every stored byte", "signweave check corpus.db", check},
     {"relayout", "store motions in another access mode",
      "signweave relayout corpus.db --access-mode by_joint_and_frame", relayout},
-    {"backup", "copy a database while it is written to; the next time, what changed",
+    {"backup", "copy a database while it is written to; later runs copy what changed",
      "signweave backup corpus.db corpus.backup", backup},
-    {"restore", "make a database of a backup", "signweave restore corpus.backup corpus.db", restore},
-    {"compact-file", "give the disk back what is free in a database's file", "signweave compact-file corpus.db",
+    {"restore", "create a database from a backup", "signweave restore corpus.backup corpus.db", restore},
+    {"compact-file", "return the free space in a database's file to the disk", "signweave compact-file corpus.db",
      compact_file},
     {"query", "find signs, phases and annotations", "signweave query corpus.db 'gloss = \"VANNES\" & phase = stroke'",
      query},
@@ -54,12 +54,12 @@ constexpr Command kCommands[] = {
     {"evaluate", "cut captured movements out, make them again by each method, compare",
      "signweave evaluate recordings/ --plot errors.svg", evaluate},
     {"serve", "answer over HTTP, and stream signing live", "signweave serve corpus.db --listen 127.0.0.1:8080", serve},
-    {"render", "draw signing as a film or as pictures",
+    {"render", "draw signing as a film or pictures",
      "signweave render corpus.db 'VANNES MATIN PLUIE' -o film.webm --studio site", render},
-    {"formats", "the file formats, and what each can hold", "signweave formats", formats},
+    {"formats", "list the file formats, and what each can hold", "signweave formats", formats},
 };
 
-/// An utterance or a query in words of its own is what is meant most often.
+/// Extra words are mostly an unquoted utterance or query.
 std::string one_word_too_many(const CLI::App& verb) {
   const std::string extra = verb.remaining().at(0);
   for (const CLI::Option* option : verb.get_options()) {
@@ -73,7 +73,7 @@ std::string one_word_too_many(const CLI::App& verb) {
   return fmt::format("'{}' is one word too many", printable(extra));
 }
 
-/// Of "Could not convert: --rate = abc".
+/// Rewrites "Could not convert: --rate = abc".
 std::string not_a_number(const CLI::App& verb, const std::string& text) {
   const std::size_t begin = text.find(": ");
   const std::size_t equal = text.find(" = ");
@@ -84,7 +84,7 @@ std::string not_a_number(const CLI::App& verb, const std::string& text) {
   return fmt::format("{}: '{}' is no {}", name, printable(text.substr(equal + 3)), whole ? "whole number" : "number");
 }
 
-/// One line for a wrong usage, with near matches for a verb or option that does not exist.
+/// One line for wrong usage, with near matches for an unknown verb or option.
 std::string usage_fault(const CLI::App& app, const CLI::ParseError& error, const std::vector<std::string>& words) {
   const CLI::App* verb = &app;
   for (const CLI::App* used : app.get_subcommands()) verb = used;
@@ -95,8 +95,7 @@ std::string usage_fault(const CLI::App& app, const CLI::ParseError& error, const
     if (words.empty()) return "no verb given; see signweave --help";
     unknown = words[0];
     if (unknown.starts_with('-')) {
-      return fmt::format("'{}' stands before the verb; options come after it; see signweave --help",
-                         printable(unknown));
+      return fmt::format("'{}' comes before the verb; options come after it; see signweave --help", printable(unknown));
     }
     return fmt::format("no verb '{}'{}; see signweave --help", printable(unknown), did_you_mean(unknown, known));
   }
@@ -111,8 +110,8 @@ std::string usage_fault(const CLI::App& app, const CLI::ParseError& error, const
         break;
       }
     }
-    if (unknown.empty() && verb->remaining().empty()) {  // what is left over stood before the verb
-      return fmt::format("'{}' stands before the verb; options come after it; see signweave --help",
+    if (unknown.empty() && verb->remaining().empty()) {  // the remaining option came before the verb
+      return fmt::format("'{}' comes before the verb; options come after it; see signweave --help",
                          printable(words.at(0)));
     }
     text = unknown.empty() ? one_word_too_many(*verb)
@@ -123,7 +122,7 @@ std::string usage_fault(const CLI::App& app, const CLI::ParseError& error, const
   return fmt::format("{}: {}; see signweave {} --help", verb->get_name(), text, verb->get_name());
 }
 
-/// With --json what went wrong is the answer: {"error": {"code", "message", …}}.
+/// With --json the error is the answer: {"error": {"code", "message", …}}.
 void print_fault(const nlohmann::json& fault, Io& io) {
   if (io.json) io.out << calls::text_of(nlohmann::json{{"error", fault}});
 }
@@ -192,7 +191,7 @@ void report_damage(const Database& database, Io& io) {
 int dispatch(const std::vector<std::string>& words, Io& io) {
   CLI::App app("signweave: a database of captured signing, found by meaning and movement, signed anew", "signweave");
   app.set_version_flag("--version", std::string(version()));
-  app.formatter(std::make_shared<HelpFormat>());  // before the verbs, which take it over
+  app.formatter(std::make_shared<HelpFormat>());  // before the verbs, which inherit it
   app.require_subcommand(1);
   Run chosen;
   for (const Command& command : kCommands) {
@@ -216,7 +215,7 @@ int dispatch(const std::vector<std::string>& words, Io& io) {
   try {
     chosen(io);
     return io.status;
-  } catch (const CLI::ParseError& error) {  // what only the command itself can tell of its words
+  } catch (const CLI::ParseError& error) {  // errors that only the command itself can detect
     return refuse_usage(usage_fault(app, error, words), io);
   } catch (const QueryError& error) {
     io.err << "signweave: " << error.what() << '\n' << error.caret << '\n';

@@ -6,7 +6,7 @@
 namespace signweave::cli {
 namespace {
 
-/// Letters, not bytes.
+/// Characters, not bytes.
 std::size_t length_of(const std::string& text) {
   return static_cast<std::size_t>(
       std::ranges::count_if(text, [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80; }));
@@ -42,12 +42,12 @@ std::string HelpFormat::make_option_desc(const CLI::Option* option) const {
 }
 
 std::string HelpFormat::make_option_opts(const CLI::Option* option) const {
-  // A list of words says itself what they are.
+  // A list of words needs no type name.
   constexpr std::string_view kListed = " TEXT:{";
   std::string text = Formatter::make_option_opts(option);
   if (!text.starts_with(kListed)) return text;
   text.replace(0, kListed.size(), " {");
-  constexpr std::size_t kMost = 80;  // beside the option's name
+  constexpr std::size_t kMost = 80;  // in addition to the option's name
   if (text.size() > kMost) text.insert(text.rfind(',', kMost - 1) + 1, "\n" + std::string(kIndent, ' '));
   return text;
 }

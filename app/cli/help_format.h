@@ -6,17 +6,17 @@
 
 namespace signweave::cli {
 
-/// Help of lines that a narrow terminal and a document hold.
+/// Formats help with lines that fit a narrow terminal and a document.
 class HelpFormat : public CLI::Formatter {
  public:
   static constexpr std::size_t kWidth = 100;
-  static constexpr std::size_t kIndent = 16;  ///< of what a long list of words goes on with
+  static constexpr std::size_t kIndent = 16;  ///< of the continuation of a long list of words
   std::string make_option_desc(const CLI::Option* option) const override;
   std::string make_option_opts(const CLI::Option* option) const override;
 };
 
-/// The text in lines of at most so many letters, broken at blanks. What an indented line goes on
-/// with is indented by two more.
+/// Wraps the text into lines of at most `width` characters, broken at blanks. The continuation of an indented line is
+/// indented by two more.
 std::string wrapped(const std::string& text, std::size_t width);
 
 }  // namespace signweave::cli

@@ -27,7 +27,7 @@ void print_pairs(Io& io, const nlohmann::ordered_json& fields) {
 
 namespace {
 
-/// "exactly", "within 0.1 mm": how a motion is kept; the tolerance is in metres.
+/// "exactly", "within 0.1 mm": the precision of a stored motion; the tolerance is in metres.
 std::string precision_name(float tolerance) {
   return tolerance > 0 ? fmt::format("within {:.6g} mm", 1e3 * tolerance) : "exactly";
 }

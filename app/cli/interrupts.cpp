@@ -15,7 +15,7 @@ void note(int signal) {
 }  // namespace
 
 Interrupts::Interrupts() : int_(std::signal(SIGINT, note)), term_(std::signal(SIGTERM, note)) {
-  // What was ignored stays so, as in the background of a shell.
+  // Signals that were ignored stay ignored, as for background jobs of a shell.
   if (int_ == SIG_IGN) std::signal(SIGINT, SIG_IGN);
   if (term_ == SIG_IGN) std::signal(SIGTERM, SIG_IGN);
 }

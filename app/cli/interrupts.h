@@ -2,8 +2,8 @@
 
 namespace signweave::cli {
 
-/// While it lives, Ctrl-C (SIGINT) and SIGTERM are noted, so that what is under way can end in order; a second one ends
-/// the program at once. They may be nested.
+/// While an instance exists, Ctrl-C (SIGINT) and SIGTERM are only noted, so that running work can end in good order; a
+/// second one ends the program immediately. Instances may be nested.
 class Interrupts {
  public:
   Interrupts();
@@ -11,7 +11,7 @@ class Interrupts {
   Interrupts(const Interrupts&) = delete;
   Interrupts& operator=(const Interrupts&) = delete;
 
-  /// True once there was one.
+  /// True once a signal was received.
   static bool noted() noexcept;
 
  private:

@@ -10,11 +10,11 @@
 
 namespace {
 
-/// The engines map their files, so that damaged pages may kill the program. It says so before it goes.
+/// The engines map their files, so damaged pages may kill the program. It reports this before it ends.
 void say_and_end(int signal) {
   constexpr std::string_view kText =
-      "signweave: ended by a fault in memory; where a database was open, its pages may be damaged: "
-      "'signweave check DB' tells, restore it from a copy\n";
+      "signweave: ended by a memory fault; if a database was open, its pages may be damaged: "
+      "check with 'signweave check DB', and restore it from a copy\n";
   [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, kText.data(), kText.size());
   ::signal(signal, SIG_DFL);
   ::raise(signal);

@@ -8,8 +8,8 @@
 
 namespace signweave::cli {
 
-/// A progress bar on `err`: only on a terminal, only after half a second, gone when it ends. While it lives Ctrl-C ends
-/// what is under way in order: the next `show` throws Error{cancelled, stopped}.
+/// A progress bar on `err`: only on a terminal, only after half a second, erased when it ends. While it exists, Ctrl-C
+/// ends the work in good order: the next `show` throws Error{cancelled, stopped}.
 class Progress {
  public:
   Progress(Io& io, std::string title, std::string stopped = "stopped; nothing was changed");
@@ -19,7 +19,7 @@ class Progress {
 
   /// `fraction` in [0, 1].
   void show(double fraction);
-  /// Takes the bar off the terminal until it is shown again.
+  /// Erases the bar from the terminal until it is shown again.
   void hide();
 
  private:

@@ -21,9 +21,9 @@ std::string place_name(const Skeleton& skeleton, const PartPlace& place) {
 std::string shortened(const std::string& name, const std::string& before) {
   std::size_t same = 0;
   while (same < std::min(name.size(), before.size()) && name[same] == before[same]) ++same;
-  while (same > 0 && (name[same] & 0xC0) == 0x80) --same;  // between letters, not inside one
+  while (same > 0 && (name[same] & 0xC0) == 0x80) --same;  // between characters, not within one
   if (same < 4 || name.size() - same > 3) return name;
-  // A number stays whole: Finger1, Finger11 -> Finger1 …11.
+  // A number is not split: Finger1, Finger11 -> Finger1 …11.
   while (same > 0 && name[same - 1] >= '0' && name[same - 1] <= '9') --same;
   return "…" + name.substr(same);
 }
@@ -55,7 +55,7 @@ RigMap rig_map_of(const Motion& motion, const std::string& path) {
 
 void print_rig(const Skeleton& skeleton, const RigMap& map, const std::string& where, Io& io) {
   io.out << fmt::format("rig: {}\n", map.convention.empty() ? "names of no known convention" : map.convention);
-  std::vector<std::vector<std::string>> rows = {{"part", "joint", "told by", "confidence"}};
+  std::vector<std::vector<std::string>> rows = {{"part", "joint", "evidence", "confidence"}};
   for (std::size_t i = 0; i < kNamedParts; ++i) {
     const auto part = static_cast<Part>(i);
     if (!map.has(part)) continue;

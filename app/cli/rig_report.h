@@ -9,10 +9,10 @@
 
 namespace signweave::cli {
 
-/// The map of a motion, with the mapping file of `--rig` where `path` is not empty.
+/// The rig map of a motion, using the mapping file of `--rig` if `path` is not empty.
 RigMap rig_map_of(const Motion& motion, const std::string& path);
 
-/// A row for every part, a row for every finger; what is missing goes to `err`, told of `where`.
+/// A row for every part and for every finger; missing parts are reported on `err`, prefixed with `where`.
 void print_rig(const Skeleton& skeleton, const RigMap& map, const std::string& where, Io& io);
 
 }  // namespace signweave::cli

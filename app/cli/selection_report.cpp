@@ -12,7 +12,7 @@
 namespace signweave::cli {
 namespace {
 
-constexpr std::size_t kMostOfPlace = 5;  ///< of one place: the rest is counted
+constexpr std::size_t kMostOfPlace = 5;  ///< candidates shown per place: the rest is only counted
 
 std::string label_of(const Candidate& candidate) {
   if (candidate.signs.empty() || !candidate.at_strokes) return "(piece)";
@@ -20,12 +20,12 @@ std::string label_of(const Candidate& candidate) {
   return fmt::format("{}..{}", candidate.gloss(), candidate.signs.back().gloss);
 }
 
-/// Nothing for what costs nothing, so that what does stands out.
+/// A dot for a cost of zero, so that other costs stand out.
 std::string cost_text(float cost) {
   return cost < 0.0005f ? "." : fmt::format("{:.3f}", cost);
 }
 
-/// The candidates of a place, the cheapest first; the chosen one is the first of those that cost the same.
+/// The candidates of a place, cheapest first; among equal costs the chosen one is first.
 std::vector<std::size_t> cheapest_first(const std::vector<CandidateCosts>& costs, std::size_t chosen) {
   std::vector<std::size_t> order(costs.size());
   for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
@@ -71,7 +71,7 @@ std::vector<std::string> row_of(const Synthesized& made, std::size_t place, std:
   return row;
 }
 
-/// Leaves out the columns of terms that cost nothing anywhere.
+/// Removes the columns of terms that are zero everywhere.
 void drop_empty_columns(std::vector<std::vector<std::string>>& rows) {
   constexpr std::size_t kFirstTerm = 8;
   for (std::size_t column = rows.front().size(); column-- > kFirstTerm;) {

@@ -5,8 +5,8 @@
 
 namespace signweave::cli {
 
-/// Candidates and what they cost, place by place: of each place the cheapest few, and how many more there are; then the
-/// weights.
+/// Prints candidates and their costs, place by place: the cheapest few of each place, and how many more there are; then
+/// the weights.
 void print_selection(const Synthesized& made, Io& io);
 
 }  // namespace signweave::cli

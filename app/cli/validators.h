@@ -8,10 +8,10 @@
 
 namespace signweave::cli {
 
-/// Refuses a text that is none of these, with the near ones. `--help` lists them.
+/// Refuses a text that is not one of these, suggesting near matches. `--help` lists them.
 CLI::Validator one_of(const std::vector<std::string>& names);
 
-/// Refuses a number outside. `--help` shows the bounds.
+/// Refuses a number out of range. `--help` shows the bounds.
 CLI::Validator within(const calls::Range& range);
 template <typename Number>
 CLI::Validator within(Number least, Number most) {

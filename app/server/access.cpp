@@ -41,7 +41,7 @@ bool is_loopback(std::string_view address) {
   return !error && parsed.is_loopback();
 }
 
-Access::Access(const ServerOptions& options) : token_(options.token) {
+AccessControl::AccessControl(const ServerOptions& options) : token_(options.token) {
   if (token_.empty() && !is_loopback(options.address)) {
     throw Error(ErrorCode::bad_input,
                 fmt::format("{} can be reached from other machines, so a token is required: give --token-file FILE or "
@@ -51,7 +51,7 @@ Access::Access(const ServerOptions& options) : token_(options.token) {
   const bool plain = std::ranges::all_of(token_, [](char c) { return c > 0x20 && c < 0x7f; });
   if (!token_.empty() && (token_.size() < 16 || !plain)) {
     throw Error(ErrorCode::bad_input,
-                "the token must be of 16 characters or more, all visible ASCII; 'openssl rand -hex 32' makes one");
+                "the token must have at least 16 characters, all visible ASCII; 'openssl rand -hex 32' generates one");
   }
   for (const std::string& origin : options.allowed_origins) {
     const std::string known = lower(origin);
@@ -59,31 +59,31 @@ Access::Access(const ServerOptions& options) : token_(options.token) {
     const bool good = (known.starts_with("http://") || known.starts_with("https://")) && known.size() > slashes + 3 &&
                       known.find_first_of("/ ?#*", slashes + 3) == std::string::npos;
     if (!good) {
-      throw Error(
-          ErrorCode::bad_input,
-          fmt::format("'{}' is no origin: scheme and host, such as https://signs.example.org", printable(origin)));
+      throw Error(ErrorCode::bad_input,
+                  fmt::format("'{}' is not an origin: give scheme and host, such as https://signs.example.org",
+                              printable(origin)));
     }
     origins_.push_back(known);
     hosts_.push_back(name_of_host(std::string_view(known).substr(slashes + 3)));
   }
 }
 
-bool Access::host_is_ours(std::string_view host) const {
+bool AccessControl::host_is_ours(std::string_view host) const {
   if (!token_.empty()) return true;
   const std::string name = name_of_host(host);
   return is_loopback(name) || std::ranges::find(hosts_, name) != hosts_.end();
 }
 
-bool Access::origin_is_allowed(std::string_view origin) const {
+bool AccessControl::origin_is_allowed(std::string_view origin) const {
   return std::ranges::find(origins_, lower(origin)) != origins_.end();
 }
 
-bool Access::origin_is_ours(std::string_view origin, std::string_view host) const {
+bool AccessControl::origin_is_ours(std::string_view origin, std::string_view host) const {
   if (origin.empty()) return true;
   return origin_is_allowed(origin) || lower(origin) == fmt::format("http://{}", lower(host));
 }
 
-bool Access::token_is_right(std::string_view authorization, std::string_view query_token) const {
+bool AccessControl::token_is_right(std::string_view authorization, std::string_view query_token) const {
   if (token_.empty()) return true;
   constexpr std::string_view kScheme = "bearer ";
   if (authorization.empty()) return same_in_constant_time(query_token, token_);

@@ -10,20 +10,20 @@ namespace {
 
 const std::string kToken = "0123456789abcdef0123";
 
-TEST(Access, AnyOtherAddressThanLoopbackRequiresAToken) {
+TEST(AccessControl, AnyOtherAddressThanLoopbackRequiresAToken) {
   for (const char* address : {"127.0.0.1", "127.8.9.1", "::1", "localhost"}) {
-    EXPECT_NO_THROW(Access({.address = address})) << address;
+    EXPECT_NO_THROW(AccessControl({.address = address})) << address;
   }
   for (const char* address : {"0.0.0.0", "::", "192.168.1.2", "example.org", "127.0.0.1.evil.org"}) {
-    EXPECT_THROW(Access({.address = address}), Error) << address;
-    EXPECT_NO_THROW(Access({.address = address, .token = kToken})) << address;
+    EXPECT_THROW(AccessControl({.address = address}), Error) << address;
+    EXPECT_NO_THROW(AccessControl({.address = address, .token = kToken})) << address;
   }
-  EXPECT_THROW(Access({.token = "short"}), Error);
-  EXPECT_THROW(Access({.token = "with a blank in its middle"}), Error);
+  EXPECT_THROW(AccessControl({.token = "short"}), Error);
+  EXPECT_THROW(AccessControl({.token = "with a blank in its middle"}), Error);
 }
 
-TEST(Access, TheTokenMustBeTheWholeToken) {
-  const Access access({.token = kToken});
+TEST(AccessControl, TheTokenMustBeTheWholeToken) {
+  const AccessControl access({.token = kToken});
   EXPECT_TRUE(access.token_is_right("Bearer " + kToken, ""));
   EXPECT_TRUE(access.token_is_right("bearer " + kToken, ""));
   EXPECT_TRUE(access.token_is_right("", kToken));
@@ -31,12 +31,12 @@ TEST(Access, TheTokenMustBeTheWholeToken) {
                                                            "Bearer " + kToken + "x", "Basic " + kToken}) {
     EXPECT_FALSE(access.token_is_right(wrong, "")) << wrong;
   }
-  EXPECT_FALSE(access.token_is_right("Bearer wrong-token-of-20-ch", kToken)) << "the header speaks first";
-  EXPECT_TRUE(Access(ServerOptions{}).token_is_right("", ""));
+  EXPECT_FALSE(access.token_is_right("Bearer wrong-token-of-20-ch", kToken)) << "the header has priority";
+  EXPECT_TRUE(AccessControl(ServerOptions{}).token_is_right("", ""));
 }
 
-TEST(Access, AHostThatIsNotLoopbackIsANameMadeToStandForIt) {
-  const Access access({.allowed_origins = {"https://signs.example.org"}});
+TEST(AccessControl, AHostOtherThanLoopbackIsRefused) {
+  const AccessControl access({.allowed_origins = {"https://signs.example.org"}});
   for (const char* host : {"localhost", "LOCALHOST:8080", "127.0.0.1:8080", "[::1]:8080", "signs.example.org"}) {
     EXPECT_TRUE(access.host_is_ours(host)) << host;
   }
@@ -46,8 +46,8 @@ TEST(Access, AHostThatIsNotLoopbackIsANameMadeToStandForIt) {
   }
 }
 
-TEST(Access, AnOriginIsTheServersOwnOrAllowed) {
-  const Access access({.allowed_origins = {"https://signs.example.org"}});
+TEST(AccessControl, AnOriginIsTheServersOwnOrAllowed) {
+  const AccessControl access({.allowed_origins = {"https://signs.example.org"}});
   for (const char* origin : {"", "http://localhost:8080", "HTTP://LOCALHOST:8080", "https://signs.example.org"}) {
     EXPECT_TRUE(access.origin_is_ours(origin, "localhost:8080")) << origin;
   }
@@ -56,13 +56,13 @@ TEST(Access, AnOriginIsTheServersOwnOrAllowed) {
     EXPECT_FALSE(access.origin_is_ours(origin, "localhost:8080")) << origin;
   }
   for (const char* origin : {"signs.example.org", "https://", "https://*", "https://a/b", "ftp://a"}) {
-    EXPECT_THROW(Access({.allowed_origins = {origin}}), Error) << origin;
+    EXPECT_THROW(AccessControl({.allowed_origins = {origin}}), Error) << origin;
   }
 }
 
 struct AccessCase {
   RequestHead head;
-  int status;  // 0: it goes on
+  int status;  // 0: not answered by the decision
 };
 
 TEST(Decision, OfHeaders) {
@@ -70,7 +70,7 @@ TEST(Decision, OfHeaders) {
   const ServerOptions closed{.token = kToken};
   const std::string bearer = "Bearer " + kToken;
   const auto status_of = [](const RequestHead& head, const ServerOptions& options) {
-    const Decision decision = decide(head, options, Access(options));
+    const Decision decision = decide(head, options, AccessControl(options));
     return decision.reply ? decision.reply->status : 0;
   };
   const std::string long_target = "/" + std::string(9'000, 'a');

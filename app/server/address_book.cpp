@@ -5,7 +5,7 @@
 namespace signweave::server {
 namespace {
 
-/// Past so many, those that are as good as new are forgotten.
+/// Above this number of entries, those that are as good as new are removed.
 constexpr std::size_t kMany = 10'000;
 
 std::string key_of(const boost::asio::ip::address& address) {

@@ -9,28 +9,28 @@
 
 namespace signweave::server {
 
-/// Who has how many connections and asks how often, by address; of IPv6 the first 64 bits, which is what one household
-/// or machine has. Threads share it. Without limits it keeps nothing and locks nothing.
+/// Counts connections and limits the request rate per address; for IPv6 per 64-bit prefix, which one household or
+/// machine has. Thread-safe. Without limits it stores nothing and locks nothing.
 class AddressBook {
  public:
   using Time = std::chrono::steady_clock::time_point;
   struct Limits {
     std::size_t connections = 0;  ///< 0: no limit
-    double rate = 0;              ///< requests a second; 0: no limit
+    double rate = 0;              ///< requests per second; 0: no limit
     double burst = 1;
   };
   explicit AddressBook(Limits limits) : limits_(limits) {}
 
-  /// False where it has as many as it may; else it is counted until `leave`.
+  /// False if the address is at its limit; otherwise the connection is counted until `leave`.
   bool enter(const boost::asio::ip::address& address, Time now);
   void leave(const boost::asio::ip::address& address);
-  /// False where it asks too often.
+  /// False if the address exceeds its request rate.
   bool request(const boost::asio::ip::address& address, Time now);
 
  private:
   struct Entry {
     std::size_t connections = 0;
-    double left = 0;  // requests that it may make at once
+    double left = 0;  // requests that may be made at once
     Time at;
   };
   bool on() const noexcept { return limits_.connections > 0 || limits_.rate > 0; }

@@ -11,7 +11,7 @@ namespace {
 
 using nlohmann::json;
 
-/// What an answer can be written as: every format that is written, by its ending, and what only HTTP has.
+/// The formats of answers: every file format that is written, by its extension, and those that only HTTP has.
 const std::vector<AnswerFormat>& answer_formats() {
   static const std::vector<AnswerFormat> formats = [] {
     std::vector<AnswerFormat> list;
@@ -25,7 +25,7 @@ const std::vector<AnswerFormat>& answer_formats() {
   return formats;
 }
 
-/// One line, its options named as the API's fields are: "--replace-motion" is "replace_motion".
+/// On one line, with options named as the API's fields: "--replace-motion" becomes "replace_motion".
 std::string message_of(const std::string& text) {
   std::string line;
   for (std::size_t i = 0; i < text.size(); ++i) {

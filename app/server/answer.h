@@ -10,7 +10,7 @@
 
 namespace signweave::server {
 
-/// A fault that has an HTTP status of its own: limits, methods, media types.
+/// An error that has its own HTTP status: limits, methods, media types.
 class StatusError : public Error {
  public:
   StatusError(int status, std::string name, const std::string& text)
@@ -27,7 +27,8 @@ StatusError too_large(const std::string& text);
 
 /// 400 bad_input, 404 not_found, 409 already_exists and conflict, 422 unsupported, 500 corrupt and io, 503 cancelled.
 int status_of(const Error& error);
-/// {"code", "message"} in one line; of a query also "line", "column", "caret". `redact` takes folders out of texts.
+/// {"code", "message"} on one line; for an error in a query also "line", "column", "caret". `redact` removes folders
+/// from texts.
 nlohmann::json error_json(const Error& error, const std::function<std::string(std::string)>& redact);
 
 ApiResponse error_answer(const Error& error, const std::function<std::string(std::string)>& redact);
@@ -40,19 +41,19 @@ ApiResponse json_answer(const Json& document, int status = 200) {
           .body = document.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + '\n'};
 }
 
-/// What kind of file a format's name stands for: "bvh" -> ".bvh".
+/// The file extension and media type of a format: "bvh" -> ".bvh".
 struct AnswerFormat {
   std::string_view name;
   std::string_view ending;
   std::string_view media_type;
 };
-/// Error{bad_input} where there is none of this name.
+/// Throws Error{bad_input} if there is no format of this name.
 const AnswerFormat& answer_format(std::string_view name);
 
-/// A file, to be saved under `stem` with the format's ending.
+/// A file, to be saved as `stem` with the format's extension.
 ApiResponse file_answer(const AnswerFormat& format, const std::string& stem, std::string body);
 
-/// A JSON text in ASCII, for a header.
+/// JSON as ASCII text, for a header.
 std::string header_json(const nlohmann::json& document);
 
 }  // namespace signweave::server

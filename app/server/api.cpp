@@ -5,13 +5,14 @@
 #include <algorithm>
 #include <new>
 
+#include "app/calls/json.h"
 #include "app/server/routes.h"
 #include "signweave/core/text.h"
 
 namespace signweave::server {
 namespace {
 
-/// What no client needs to know: where the server keeps things.
+/// Removes what no client needs to know: where the server stores its files.
 std::string redacted(const ApiState& state, std::string text) {
   const auto replace = [&](const std::string& folder, const std::string& with) {
     if (folder.empty()) return;
@@ -32,7 +33,7 @@ std::string path_text(const std::vector<std::string>& path) {
   return fmt::format("/api/{}", fmt::join(path, "/"));
 }
 
-/// For a wrong path: those of as many segments, with the names of the request in them.
+/// For a wrong path: the paths with the same number of segments, with the request's names filled in.
 std::vector<std::string> paths_like(const std::vector<std::string>& path) {
   std::vector<std::string> like;
   for (const Route& route : routes()) {
@@ -48,7 +49,7 @@ std::vector<std::string> paths_like(const std::vector<std::string>& path) {
   return like;
 }
 
-/// The route of a request. Throws StatusError 405 with what is allowed, Error{not_found} with near matches.
+/// The route of a request. Throws StatusError 405 with the allowed methods, Error{not_found} with near matches.
 const Route& route_of(const ApiRequest& request, std::string& allowed) {
   for (const Route& route : routes()) {
     if (!match(route, request.path)) continue;
@@ -65,7 +66,7 @@ const Route& route_of(const ApiRequest& request, std::string& allowed) {
                                                 printable(path), did_you_mean(path, paths_like(request.path))));
 }
 
-/// What the route says of every request of its kind.
+/// Checks what a route requires of every request.
 void check_request(const Call& call) {
   const Route& route = call.route;
   if (route.source != Source::query) calls::FieldReader(call.request.query, {}).finish();
@@ -91,7 +92,7 @@ ApiResponse answer_call(ApiState& state, const ApiRequest& request, std::string&
   check_request(call);
   ApiResponse response = route.handle(call);
   if (response.status == 200 && route.status != 200) response.status = route.status;
-  // In headers, for files and lists have no place for them. Long lists would be refused by clients.
+  // In headers, because files and lists have no room for them. Clients would refuse long lists.
   if (!call.declarations.empty()) {
     response.headers.emplace_back("Signweave-Declarations", header_json(call.declarations));
   }
@@ -107,7 +108,7 @@ ApiResponse answer_call(ApiState& state, const ApiRequest& request, std::string&
   return response;
 }
 
-/// What `make` gives, or the answer to what it throws.
+/// Returns what `make` returns, or the answer to what it throws.
 template <class Make>
 ApiResponse guarded(const ApiState& state, const std::string& allowed, Make make) {
   const auto redact = [&](std::string text) { return redacted(state, std::move(text)); };
@@ -120,7 +121,7 @@ ApiResponse guarded(const ApiState& state, const std::string& allowed, Make make
   } catch (const Error& error) {
     return error_answer(error, redact);
   } catch (const std::bad_alloc&) {
-    return error_answer(StatusError(503, "no_memory", "not enough memory for this; ask for less"), redact);
+    return error_answer(StatusError(503, "no_memory", "not enough memory for this request; request less"), redact);
   } catch (const std::exception& error) {
     return error_answer(Error(ErrorCode::io, error.what()), redact);
   }
@@ -155,23 +156,23 @@ bool Api::takes_document(const ApiRequest& request) const {
 
 std::optional<ApiResponse> Api::refusal(const ApiRequest& request) {
   std::string allowed;
-  bool wanted = false;
+  bool needed = false;
   ApiResponse response = guarded(*state_, allowed, [&] {
     const Route& route = route_of(request, allowed);
     const Call call{.state = *state_, .request = request, .route = route, .names = *match(route, request.path)};
     check_request(call);
     if (route.require != nullptr) route.require(call);
-    wanted = true;
+    needed = true;
     return ApiResponse{};
   });
-  if (wanted) return std::nullopt;
+  if (needed) return std::nullopt;
   return response;
 }
 
 ApiResponse Api::answer(ApiRequest request) {
   std::string allowed;
   ApiResponse response = guarded(*state_, allowed, [&] { return answer_call(*state_, request, allowed); });
-  if (!request.body_file.empty()) {  // where it was not taken
+  if (!request.body_file.empty()) {  // if no call has moved it
     std::error_code ignored;
     std::filesystem::remove(request.body_file, ignored);
   }

@@ -13,15 +13,17 @@
 
 namespace signweave::server {
 
-/// One call, free of the network: what a server's connection makes of an HTTP request.
+/// One API call, independent of the network; a connection builds it from an HTTP request.
 struct ApiRequest {
   std::string method = "GET";
   std::vector<std::string> path;             ///< decoded segments after /api: {"databases", "demo", "query"}
-  std::map<std::string, std::string> query;  ///< decoded; of a name that comes twice the last
+  std::map<std::string, std::string> query;  ///< decoded; the last value of a repeated name
   std::string content_type;
-  std::string accept;  ///< the Accept header: its first type may say which file sign, edit and exports give
-  std::string body;    ///< whole, within the server's limit
-  std::filesystem::path body_file;  ///< of an upload: where the server has put the body instead; the call takes it away
+  std::string
+      accept;  ///< the Accept header: its first type may choose the file format that sign, edit and exports return
+  std::string body;  ///< complete, within the server's limit
+  std::filesystem::path
+      body_file;  ///< for an upload: the file where the server has put the body instead; the call moves it away
 };
 
 struct ApiResponse {
@@ -29,41 +31,42 @@ struct ApiResponse {
   std::string content_type = "application/json";
   std::vector<std::pair<std::string, std::string>> headers;
   std::string body;
-  std::filesystem::path file{};  ///< where it is given, the body is this file, or the part of it that was asked for
+  std::filesystem::path file{};  ///< if not empty, the body is this file, or the requested range of it
 };
 
 struct ApiLimits {
-  Milliseconds query_time{5'000};              ///< a query takes no longer
-  std::size_t answers = 100'000;               ///< a query gives no more
-  Milliseconds sign_time{30'000};              ///< nor any other call, as far as it can be stopped
-  std::size_t glosses = 10'000;                ///< of one utterance
-  std::int64_t frames = 500'000;               ///< of one result: above an hour at 100 frames a second
-  std::uint64_t upload_bytes = 2'000'000'000;  ///< of all files of one upload
-  std::size_t uploads = 16;                    ///< open at once
-  Seconds upload_idle{3'600};                  ///< an upload that nobody touches goes away after so long
+  Milliseconds query_time{5'000};              ///< longest time of a query
+  std::size_t answers = 100'000;               ///< most answers of a query
+  Milliseconds sign_time{30'000};              ///< longest time of any other call, as far as it can be interrupted
+  std::size_t glosses = 10'000;                ///< per utterance
+  std::int64_t frames = 500'000;               ///< per result: more than an hour at 100 frames per second
+  std::uint64_t upload_bytes = 2'000'000'000;  ///< all files of one upload together
+  std::size_t uploads = 16;                    ///< open at the same time
+  Seconds upload_idle{3'600};                  ///< an unused upload is removed after this time
 };
 
-/// Answers every call under /api/ but the WebSocket: routes.h has the table, docs/http.md the description. Never
-/// throws: a fault is a JSON body {"error": …} with its status. Calls may come from several threads at once; each takes
-/// as long as its work does, so they must not run on a thread that streams. Imports run on a thread of the Api's own.
+/// Answers every call under /api/ except the WebSocket: routes.h has the table, docs/http.md the description. Never
+/// throws: an error is a JSON body {"error": …} with its status. Thread-safe; a call takes as long as its work does, so
+/// calls must not run on a thread that streams. Imports run on a thread owned by the Api.
 class Api {
  public:
-  /// `scratch`: a folder for uploads, which must exist; what is left there is removed at the end.
+  /// `scratch`: an existing folder for uploads; uploads left in it are removed by the destructor.
   Api(ServedDatabases& databases, ApiLimits limits, const std::filesystem::path& scratch);
-  /// Waits for a running import, or stops it where it can be.
+  /// Stops a running import if it can be stopped, and waits for it.
   ~Api();
   Api(const Api&) = delete;
   Api& operator=(const Api&) = delete;
 
   ApiResponse answer(ApiRequest request);
-  /// True where the body of such a request belongs in a file (`body_file`): the server need not hold it.
+  /// True if the body of such a request is to be put into a file (`body_file`), so that the server need not hold it in
+  /// memory.
   bool takes_file(const ApiRequest& request) const;
-  /// True where the body is a document that may be larger than a call's parameters: a score.
+  /// True if the body is a document that may be larger than a call's parameters: a score.
   bool takes_document(const ApiRequest& request) const;
-  /// The answer to a request whose body need not come, for no body could make it good: the database is not writable,
-  /// there is no such upload. None where the body is wanted.
+  /// The error response to a request that no body could make valid: the database is not writable, or there is no such
+  /// upload. Nullopt if the body is needed.
   std::optional<ApiResponse> refusal(const ApiRequest& request);
-  /// The OpenAPI 3.1 document, which `answer` gives at /api/openapi.json.
+  /// The OpenAPI 3.1 document, which `answer` returns for /api/openapi.json.
   static std::string openapi();
 
  private:

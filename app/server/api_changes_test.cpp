@@ -15,7 +15,7 @@ using nlohmann::json;
 using testing::HasSubstr;
 using testing::StartsWith;
 
-/// A recording that the databases of the tests do not hold.
+/// A recording that is not in the databases of the tests.
 const demo::SyntheticRecording& another() {
   static const demo::SyntheticRecording made = demo::make_recording(demo::corpus_scripts(2).front(), {50, 1}, 7);
   return made;
@@ -44,7 +44,8 @@ TEST(ApiChanges, AnUploadIsImported) {
   EXPECT_THAT(recording["declarations"].dump(), HasSubstr("placeholder"));
   EXPECT_THAT(job.dump(), testing::Not(HasSubstr(api.scratch().string())));
   EXPECT_EQ(json_in(api.get(at({})))["recordings"].size(), 3u);
-  EXPECT_THAT(fault_of(api.get(at({"uploads", id}))), StartsWith("404"));  // what was imported is not kept twice
+  EXPECT_THAT(fault_of(api.get(at({"uploads", id}))),
+              StartsWith("404"));  // the files are not stored twice after the import
 }
 
 json inspect(TestApi& api, const std::string& upload, const json& parameters = json::object()) {
@@ -53,7 +54,7 @@ json inspect(TestApi& api, const std::string& upload, const json& parameters = j
   return wait_for(api, json_in(begun)["job"]);
 }
 
-TEST(ApiChanges, WhatAnImportWouldStoreIsToldBeforeItIsStored) {
+TEST(ApiChanges, AnInspectionReportsWhatAnImportWouldStore) {
   TestApi api(true);
   const std::string id = upload_of(api, {{"soir.bvh", another_bvh()},
                                          {"soir.eaf", eaf::write_text(another().document)},
@@ -89,7 +90,7 @@ TEST(ApiChanges, WhatAnImportWouldStoreIsToldBeforeItIsStored) {
     EXPECT_NE(entry.path().extension(), ".inspected");
   }
 
-  // Corrected, it is told anew.
+  // With corrected parameters it is reported again.
   const json again = inspect(
       api, id, {{"unit", "m"}, {"sign_tier", json::array({"Gloss:right"})}, {"recordings", json::array({"soir"})}});
   ASSERT_EQ(again["result"]["recordings"].size(), 1u);
@@ -97,7 +98,7 @@ TEST(ApiChanges, WhatAnImportWouldStoreIsToldBeforeItIsStored) {
   EXPECT_EQ(again["result"]["recordings"][0]["tiers"][0]["hand"], "right");
 }
 
-TEST(ApiChanges, OfAnUploadSomeRecordingsAreImportedAndTheOthersLater) {
+TEST(ApiChanges, SomeRecordingsOfAnUploadAreImportedAndTheOthersLater) {
   TestApi api(true);
   const std::string id = upload_of(api, {{"a.bvh", another_bvh()}, {"b.bvh", another_bvh()}});
   EXPECT_THAT(fault_of(api.send("POST", at({"uploads", id, "import"}), {{"recordings", json::array({"c"})}})),
@@ -112,7 +113,7 @@ TEST(ApiChanges, OfAnUploadSomeRecordingsAreImportedAndTheOthersLater) {
   EXPECT_EQ(api.send("DELETE", at({"uploads", id})).status, 200);
 }
 
-TEST(ApiChanges, AnAnnotationThatWasReplacedMeanwhileIsNotReplacedUnseen) {
+TEST(ApiChanges, AnAnnotationReplacedMeanwhileIsNotOverwritten) {
   TestApi api(true);
   const auto fingerprint = [&] {
     return json_in(api.send("GET", at({"recordings", "a"})))["annotation_fingerprint"].get<std::string>();
@@ -135,7 +136,7 @@ TEST(ApiChanges, AnAnnotationThatWasReplacedMeanwhileIsNotReplacedUnseen) {
   EXPECT_THAT(refused["error"].get<std::string>(), HasSubstr("is no longer " + before + " but " + fingerprint()));
 }
 
-TEST(ApiChanges, AFileIsTakenOutOfAnUpload) {
+TEST(ApiChanges, AFileIsRemovedFromAnUpload) {
   TestApi api(true);
   const std::string id = upload_of(api, {{"a.bvh", another_bvh()}, {"b.bvh", "HIERARCHY"}});
   EXPECT_THAT(fault_of(api.send("DELETE", at({"uploads", id, "files", "b.bvj"}))),
@@ -149,7 +150,7 @@ TEST(ApiChanges, AFileIsTakenOutOfAnUpload) {
   EXPECT_THAT(fault_of(api.send("DELETE", at({"uploads", id, "files", "a.bvh"}))), StartsWith("404"));
 }
 
-TEST(ApiChanges, ATableOfPairsNamesARecordingAsNoFileIsCalled) {
+TEST(ApiChanges, ATableOfPairsMayGiveARecordingAnotherName) {
   TestApi api(true);
   const std::string id = upload_of(api, {{"a.bvh", another_bvh()}, {"pairs.csv", "a.bvh,,,,,,day 1/a\n"}});
   EXPECT_EQ(inspect(api, id, {{"pairs", "pairs.csv"}})["result"]["recordings"][0]["name"], "day 1/a");
@@ -157,7 +158,7 @@ TEST(ApiChanges, ATableOfPairsNamesARecordingAsNoFileIsCalled) {
   EXPECT_TRUE(api.database().info("day 1/a"));
 }
 
-TEST(ApiChanges, TiersThatAreNamedAndSaidNotToBeThereAreRefused) {
+TEST(ApiChanges, TiersBothNamedAndDeclaredMissingAreRefused) {
   TestApi api(true);
   const std::string id = upload_of(api, {{"a.eaf", eaf::write_text(another().document)}});
   EXPECT_THAT(fault_of(api.send("POST", at({"uploads", id, "inspect"}),
@@ -165,11 +166,11 @@ TEST(ApiChanges, TiersThatAreNamedAndSaidNotToBeThereAreRefused) {
               HasSubstr("no_phase_tier: phase_tier names 'Phase'; give one of the two"));
   const json found = inspect(api, id, {{"no_phase_tier", true}})["result"]["recordings"][0];
   EXPECT_GT(found["signs"].get<int>(), 0);
-  EXPECT_EQ(found["phases"], found["signs"]) << found;  // a sign without phases is one stroke
+  EXPECT_EQ(found["phases"], found["signs"]) << found;  // a sign without phases has one stroke
   EXPECT_EQ(inspect(api, id, {{"no_sign_tier", true}})["result"]["recordings"][0]["signs"], 0);
 }
 
-TEST(ApiChanges, OfALongResultOnlyWhatIsNewIsTold) {
+TEST(ApiChanges, OnlyTheNewPartOfALongResultIsReturned) {
   TestApi api(true);
   const std::string id = upload_of(api, {{"a.bvh", another_bvh()}, {"b.bvh", "x"}, {"c.bvh", another_bvh()}});
   const json whole = inspect(api, id);
@@ -188,7 +189,7 @@ TEST(ApiChanges, OfALongResultOnlyWhatIsNewIsTold) {
   EXPECT_FALSE(list[0].contains("result"));
 }
 
-TEST(ApiChanges, WhatIsWrongWithAFileIsToldWithoutTheServersFolders) {
+TEST(ApiChanges, ErrorsInFilesDoNotContainTheServersFolders) {
   TestApi api(true);
   const json job = import(api, upload_of(api, {{"soir.bvh", "HIERARCHY\nROOT"}}));
   EXPECT_EQ(job["state"], "done");
@@ -197,7 +198,7 @@ TEST(ApiChanges, WhatIsWrongWithAFileIsToldWithoutTheServersFolders) {
   EXPECT_EQ(api.database().contents()->recordings.size(), 2u);
 }
 
-TEST(ApiChanges, NamesThatAreNoPlainFileNameAreRefused) {
+TEST(ApiChanges, OnlyPlainFileNamesAreAccepted) {
   TestApi api(true);
   const std::string id = upload_of(api, {});
   for (const std::string& name : {std::string(".."), std::string("."), std::string("../x.bvh"), std::string("/etc/x"),
@@ -216,7 +217,7 @@ TEST(ApiChanges, NamesThatAreNoPlainFileNameAreRefused) {
   }
   EXPECT_THAT(fault_of(api.send("POST", at({"uploads", id, "import"}), {{"pairs", "../../x"}})), StartsWith("400"));
   EXPECT_THAT(fault_of(api.send("POST", at({"uploads", id, "import"}), {{"rig", "none"}})), StartsWith("404"));
-  for (const char* field : {"pairs", "phase_labels", "rig", "skeleton"}) {  // nothing outside of the upload is opened
+  for (const char* field : {"pairs", "phase_labels", "rig", "skeleton"}) {  // nothing outside the upload is opened
     for (const char* path : {"/etc/passwd", "../x", "/dev/zero"}) {
       EXPECT_THAT(fault_of(api.send("POST", at({"uploads", id, "import"}), {{field, path}})), StartsWith("400"))
           << field << ' ' << path;
@@ -229,7 +230,7 @@ TEST(ApiChanges, NamesThatAreNoPlainFileNameAreRefused) {
   EXPECT_THAT(fault_of(api.put(at({"uploads", "0123", "files", "a"}), "x")), StartsWith("404"));
 }
 
-TEST(ApiChanges, ABodyInAFileIsTakenOrTakenAway) {
+TEST(ApiChanges, ABodyInAFileIsMovedOrRemoved) {
   TestApi api(true);
   const std::string id = upload_of(api, {});
   const auto body_in = [&](const char* name) {
@@ -251,7 +252,7 @@ TEST(ApiChanges, AnImportThatIsCancelledMidwayChangesNothing) {
   TestApi api(true);
   const std::string id = upload_of(api, {{"soir.bvh", another_bvh()}});
   const std::string job = json_in(api.send("POST", at({"uploads", id, "import"})))["job"];
-  for (int i = 0; i < 1'000; ++i) {  // until it is under way
+  for (int i = 0; i < 1'000; ++i) {  // until it is running
     const json state = json_in(api.get({"jobs", job}));
     if (state["fraction"] > 0.0 || state["state"] == "done") break;
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
@@ -260,11 +261,11 @@ TEST(ApiChanges, AnImportThatIsCancelledMidwayChangesNothing) {
   EXPECT_EQ(wait_for(api, job)["state"], "cancelled");
   EXPECT_EQ(api.database().contents()->recordings.size(), 2u);
   EXPECT_EQ(json_in(api.get(at({"check"})))["faults"].size(), 0u);
-  EXPECT_EQ(import(api, id)["state"], "done");  // its files are still there
+  EXPECT_EQ(import(api, id)["state"], "done");  // its files still exist
   EXPECT_EQ(api.database().contents()->recordings.size(), 3u);
 }
 
-TEST(ApiChanges, ConcurrentReadsGoOnBesideAnImport) {
+TEST(ApiChanges, ConcurrentReadsContinueDuringAnImport) {
   TestApi api(true);
   const std::string id = upload_of(api, {{"soir.bvh", another_bvh()}});
   std::atomic<bool> over{false};
@@ -296,7 +297,7 @@ TEST(ApiChanges, ARecordingIsRemovedButNotWhileAJobChangesTheDatabase) {
   EXPECT_THAT(fault_of(api.send("DELETE", at({"recordings", "meteo"}))), StartsWith("404 not_found"));
 }
 
-TEST(ApiChanges, MotionsAreStoredAnew) {
+TEST(ApiChanges, MotionsAreRelaidOut) {
   TestApi api(true);
   const ApiResponse begun = api.send("POST", at({"relayout"}), {{"access_mode", "by_joint"}});
   ASSERT_EQ(begun.status, 202);
@@ -310,7 +311,7 @@ TEST(ApiChanges, MotionsAreStoredAnew) {
   EXPECT_THAT(fault_of(api.get({"jobs", "9"})), StartsWith("404"));
 }
 
-TEST(ApiChanges, AnEvaluationHoldsNobodyUpAndIsCancelled) {
+TEST(ApiChanges, AnEvaluationBlocksNoRequestsAndIsCancelled) {
   TestApi api(true);
   const std::string job = json_in(api.send("POST", at({"evaluate"})))["job"];
   EXPECT_THAT(fault_of(api.send("POST", at({"evaluate"}))), StartsWith("409 conflict"));
@@ -319,12 +320,12 @@ TEST(ApiChanges, AnEvaluationHoldsNobodyUpAndIsCancelled) {
   EXPECT_EQ(wait_for(api, job)["state"], "cancelled");
 }
 
-TEST(ApiChanges, AnUploadThatIsNeverFinishedIsSwept) {
+TEST(ApiChanges, AnUnfinishedUploadIsRemovedByTheSweep) {
   TestApi api(true, {.upload_idle = Seconds(0)});
   const std::string id = upload_of(api, {});
   upload_of(api, {});
   EXPECT_THAT(fault_of(api.get(at({"uploads", id}))), StartsWith("404"));
-  TestApi full(true, {.uploads = 1, .upload_idle = Seconds(3)});  // of a page that was closed
+  TestApi full(true, {.uploads = 1, .upload_idle = Seconds(3)});  // left by a page that was closed
   const std::string left = upload_of(full, {});
   std::this_thread::sleep_for(std::chrono::milliseconds(600));
   const std::string taken = upload_of(full, {});

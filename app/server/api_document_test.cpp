@@ -1,4 +1,4 @@
-// What the OpenAPI document and docs/http.md promise, held against the table of routes and real answers.
+// Compares the OpenAPI document and docs/http.md with the table of routes and real answers.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -33,7 +33,7 @@ bool is_of_type(const json& value, const std::string& type) {
   return type == "number" && value.is_number();
 }
 
-/// Faults of a value by a schema: types, required properties, items, references, values, bounds, alternatives.
+/// Violations of a schema by a value: types, required properties, items, references, values, bounds, alternatives.
 void check(const json& value, const json& schema, const std::string& where, std::vector<std::string>& faults) {
   if (schema.contains("$ref")) {
     const std::string pointer = schema["$ref"].get<std::string>().substr(1);
@@ -101,7 +101,7 @@ std::vector<std::string> faults_of(const json& value, const std::string& name) {
   return faults;
 }
 
-/// A real path for a route of the demo database; none for what needs an upload or a job.
+/// A real path for a route of the demo database; nullopt for routes that need an upload or a job.
 std::optional<Path> demo_path(const Route& route) {
   Path path;
   for (const std::string_view segment : segments_of(route.path)) {
@@ -150,7 +150,7 @@ TEST(ApiDocument, EveryFieldOfTheParametersIsInTheDocs) {
   }
 }
 
-TEST(ApiDocument, EveryAnswerToGetFitsItsSchema) {
+TEST(ApiDocument, EveryAnswerToGetMatchesItsSchema) {
   TestApi api(false, {.sign_time = Milliseconds(300'000)});  // sanitizers are slow
   std::set<std::string> seen;
   for (const Route& route : routes()) {
@@ -188,7 +188,7 @@ TEST(ApiDocument, AnEvaluationIsAJobWhoseResultFitsItsSchema) {
   EXPECT_THAT(result["declarations"].dump(), HasSubstr("not LSF"));
 }
 
-TEST(ApiDocument, EveryRouteRefusesWhatIsWrong) {
+TEST(ApiDocument, EveryRouteRefusesInvalidRequests) {
   TestApi api(true);
   for (const Route& route : routes()) {
     Path path;
@@ -208,7 +208,7 @@ TEST(ApiDocument, EveryRouteRefusesWhatIsWrong) {
   }
 }
 
-TEST(ApiDocument, AnswersToPostAndFaultsFitTheirSchemas) {
+TEST(ApiDocument, AnswersToPostAndErrorsMatchTheirSchemas) {
   TestApi api(true);
   const Path sign = {"databases", "demo", "sign"};
   EXPECT_THAT(

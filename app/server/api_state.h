@@ -6,13 +6,13 @@
 
 namespace signweave::server {
 
-/// What the calls of one Api share. Threads may share it.
+/// State shared by the calls of one Api. Thread-safe.
 struct ApiState {
   ServedDatabases& databases;
   ApiLimits limits;
   std::filesystem::path scratch;
   Uploads uploads;
-  Jobs jobs;  ///< the last: its thread ends before what it uses
+  Jobs jobs;  ///< declared last: its thread ends before what it uses is destroyed
 };
 
 struct Api::State : ApiState {};

@@ -12,13 +12,13 @@ using nlohmann::json;
 using testing::HasSubstr;
 using testing::StartsWith;
 
-/// One for all tests that change nothing.
+/// Shared by all tests that change nothing.
 TestApi& reading() {
   static TestApi api(false);
   return api;
 }
 
-TEST(Api, ListsTheDatabasesThatAreServed) {
+TEST(Api, ListsTheServedDatabases) {
   const json list = json_in(reading().get({"databases"}))["databases"];
   ASSERT_EQ(list.size(), 1u);
   EXPECT_THAT(list[0]["declarations"].dump(), HasSubstr("placeholder shapes"));
@@ -34,7 +34,7 @@ TEST(Api, AWrongPathIsNotFoundWithNearMatches) {
   EXPECT_THAT(fault_of(reading().get({})), StartsWith("404"));
 }
 
-TEST(Api, AWrongMethodIsToldWhatIsAllowed) {
+TEST(Api, AnErrorForAWrongMethodListsTheAllowedOnes) {
   const ApiResponse response = reading().send("PATCH", at({"query"}));
   EXPECT_THAT(fault_of(response), StartsWith("405 method_not_allowed"));
   EXPECT_EQ(header_of(response, "Allow"), "GET, POST");
@@ -56,13 +56,13 @@ TEST(Api, QueriesAreAnsweredAsTheCommandLineDoes) {
               HasSubstr("stroke"));
 }
 
-TEST(Api, AFaultInAQueryHasItsPlace) {
+TEST(Api, AnErrorInAQueryHasItsPosition) {
   const ApiResponse response = reading().get(at({"query"}), {{"text", "gloss = "}});
   EXPECT_THAT(fault_of(response), StartsWith("400 bad_input: query:1:9"));
   EXPECT_EQ(json_in(response)["error"]["caret"], "gloss = \n        ^");
 }
 
-TEST(Api, WhatIsMadeOfPlaceholdersSaysSo) {
+TEST(Api, ResultsBuiltFromPlaceholdersAreDeclared) {
   for (const auto& [path, query] : std::vector<std::pair<Path, std::map<std::string, std::string>>>{
            {{"databases"}, {}},
            {{"databases", "demo"}, {}},
@@ -92,7 +92,7 @@ TEST(Api, UnknownFieldsAndWrongValuesAreNamed) {
   EXPECT_THAT(fault_of(reading().get({"databases"}, {{"x", "1"}})), StartsWith("400 bad_input: no field 'x'"));
 }
 
-TEST(Api, ABodyIsJsonAndSaysSo) {
+TEST(Api, ABodyMustBeJsonAndDeclareIt) {
   ApiRequest request{.method = "POST", .path = at({"sign"}), .body = "{\n  \"utterance\": VANNES}"};
   request.content_type = "text/plain";
   EXPECT_THAT(fault_of(reading().api().answer(request)), StartsWith("415 unsupported_media_type"));
@@ -130,7 +130,7 @@ TEST(Api, SignsAReportOrAFile) {
   EXPECT_EQ(reading().api().answer(accepting).content_type, "application/json");
 }
 
-TEST(Api, JunctionsAreMadeAsTold) {
+TEST(Api, JunctionsAreMadeAsRequested) {
   const json sign = {{"utterance", "VANNES MATIN PLUIE"}, {"junctions", {"2=sine,450ms,x1.5"}}};
   const json made = json_in(reading().send("POST", at({"sign"}), sign))["junctions"];
   ASSERT_EQ(made.size(), 2u);
@@ -142,7 +142,7 @@ TEST(Api, JunctionsAreMadeAsTold) {
   const auto fault = [&](const char* junction) {
     return fault_of(reading().send("POST", at({"sign"}), {{"utterance", "VANNES MATIN"}, {"junctions", {junction}}}));
   };
-  EXPECT_THAT(fault("1=sin"), StartsWith("400 bad_input: junctions: 'sin' is no method"));
+  EXPECT_THAT(fault("1=sin"), StartsWith("400 bad_input: junctions: 'sin' is not a method"));
   EXPECT_THAT(fault("3=sine"), StartsWith("400 bad_input: no junction 3"));
 }
 
@@ -155,7 +155,7 @@ ApiResponse sent_score(const std::string& score, std::map<std::string, std::stri
                                  .body = score});
 }
 
-TEST(Api, GivesScoresAndRendersThem) {
+TEST(Api, ReturnsScoresAndRendersThem) {
   const auto signed_as = [](const char* format) {
     return reading().send("POST", at({"sign"}), {{"utterance", "VANNES MATIN PLUIE"}, {"format", format}}).body;
   };
@@ -177,7 +177,7 @@ TEST(Api, RefusesScoresThatCannotBeRendered) {
       reading().send("POST", at({"sign"}), {{"utterance", "VANNES MATIN"}, {"format", "score"}}).body;
   EXPECT_THAT(fault_of(sent_score("")), HasSubstr("the body must be a score"));
   EXPECT_THAT(fault_of(sent_score("{}")), HasSubstr("score: the whole: it must be a score"));
-  EXPECT_THAT(fault_of(sent_score(score, {{"frames", "10..30"}})), HasSubstr("ask for a format of motion"));
+  EXPECT_THAT(fault_of(sent_score(score, {{"frames", "10..30"}})), HasSubstr("also request a format of motion"));
   EXPECT_THAT(fault_of(sent_score(score, {{"frames", "10..30"}, {"format", "eaf"}})),
               HasSubstr("eaf is of a whole score: leave frames out"));
   EXPECT_THAT(fault_of(sent_score(score, {{"frames", "30..10"}, {"format", "bvh"}})), HasSubstr("expected FROM..TO"));
@@ -195,7 +195,7 @@ TEST(Api, RefusesScoresThatCannotBeRendered) {
   EXPECT_EQ(shorter.send("POST", at({"score"}), json::parse(score)).status, 413);
 }
 
-TEST(Api, AGlossThatIsNotThereHasNearMatches) {
+TEST(Api, AnUnknownGlossHasNearMatches) {
   const std::string fault = fault_of(reading().send("POST", at({"sign"}), {{"utterance", "VANES"}}));
   EXPECT_THAT(fault, StartsWith("404 not_found"));
   EXPECT_THAT(fault, HasSubstr("VANNES"));
@@ -226,9 +226,9 @@ TEST(Api, ExportsARecordingOrAPartOfIt) {
   EXPECT_THAT(fault_of(reading().get(at({"recordings", "meteo", "motion"}), {{"joints", "LeftHnad"}})),
               HasSubstr("did you mean LeftHand"));
   EXPECT_THAT(fault_of(reading().get(at({"recordings", "mteo", "motion"}))), StartsWith("404 not_found"));
-  // The words are those of the API, not of the command line.
+  // The field names are those of the API, not of the command line.
   EXPECT_THAT(fault_of(reading().get(at({"recordings", "meteo", "motion"}), {{"from", "2"}, {"to", "1"}})),
-              HasSubstr("from must be before to"));
+              HasSubstr("'from' must be before 'to'"));
   const auto remade = [&](const char* remake, const char* transition) {
     return reading().get(at({"recordings", "meteo", "motion"}),
                          {{"from", "1000"}, {"to", "2000"}, {"remake", remake}, {"transition", transition}});
@@ -237,7 +237,8 @@ TEST(Api, ExportsARecordingOrAPartOfIt) {
   EXPECT_THAT(fault_of(remade("1400-1600", "hermite")),
               StartsWith("400 bad_input: remake: '1400-1600': expected FROM"));
   EXPECT_THAT(fault_of(remade("1400..1600", "hermit")), HasSubstr("did you mean hermite"));
-  EXPECT_THAT(fault_of(remade("1400..2000", "hermite")), StartsWith("400 bad_input: remake 1400..2000: 3 captured"));
+  EXPECT_THAT(fault_of(remade("1400..2000", "hermite")),
+              StartsWith("400 bad_input: regenerate 1400..2000: 3 captured"));
 }
 
 TEST(Api, CountsChecksAndEvaluates) {
@@ -251,7 +252,7 @@ TEST(Api, CountsChecksAndEvaluates) {
   EXPECT_THAT(reading().get(at({"recordings", "meteo", "segment"}), {{"format", "eaf"}}).body, HasSubstr("proposed"));
 }
 
-TEST(Api, LimitsAreKept) {
+TEST(Api, LimitsAreEnforced) {
   TestApi small(true, {.query_time = Milliseconds(5'000),
                        .answers = 3,
                        .sign_time = Milliseconds(0),
@@ -270,7 +271,7 @@ TEST(Api, LimitsAreKept) {
   EXPECT_THAT(fault_of(small.send("POST", at({"uploads"}))), StartsWith("503 busy"));
   EXPECT_EQ(small.put(at({"uploads", id, "files", "a.bvh"}), "12345678").status, 200);
   EXPECT_THAT(fault_of(small.put(at({"uploads", id, "files", "b.bvh"}), "123")), StartsWith("413 too_large"));
-  EXPECT_EQ(small.put(at({"uploads", id, "files", "a.bvh"}), "1234567890").status, 200);  // takes the first one's place
+  EXPECT_EQ(small.put(at({"uploads", id, "files", "a.bvh"}), "1234567890").status, 200);  // replaces the first one
 }
 
 TEST(Api, ADatabaseServedForReadingIsNotChanged) {

@@ -1,3 +1,3 @@
-// Boost.Asio and Boost.Beast are compiled here, once, and not in every file that includes them.
+// Boost.Asio and Boost.Beast are compiled here once, instead of in every file that includes them.
 #include <boost/asio/impl/src.hpp>
 #include <boost/beast/src.hpp>

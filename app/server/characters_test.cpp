@@ -1,4 +1,5 @@
-// What shows motion: frames for programs that draw, characters, linked media, and what a drawing page sends back.
+// The parts that show motion: frames for programs that draw, characters, linked media, and the results of a drawing
+// page.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -71,7 +72,7 @@ TEST(FramesAnswer, HasTheMotionOfTheDatabase) {
   }
 }
 
-TEST(FramesAnswer, TellsWhatWasMadeAgain) {
+TEST(FramesAnswer, ReportsRegeneratedFrames) {
   const auto part = [&](std::map<std::string, std::string> more) {
     std::map<std::string, std::string> query = {{"format", "frames"}, {"from", "28000"}, {"to", "31000"}};
     query.merge(more);
@@ -100,7 +101,7 @@ TEST(FramesAnswer, TellsWhatWasMadeAgain) {
   EXPECT_EQ(shown.head["report"]["remade"].size(), 1u);
 }
 
-TEST(FramesAnswer, TellsOfWhatWasMadeHowItWasMade) {
+TEST(FramesAnswer, ReportsHowTheResultWasMade) {
   const json sign = {{"utterance", "VANNES MATIN"}, {"format", "frames"}};
   const Frames got = frames_in(with_character().send("POST", at({"sign"}), sign));
   EXPECT_EQ(got.head["report"]["signs"].size(), 2u);
@@ -125,7 +126,7 @@ TEST(Characters, MotionsComeInTheirJoints) {
       with_character().get(at({"recordings", "villes", "motion"}), {{"format", "frames"}, {"character", "woman"}}));
   EXPECT_EQ(whole.head["character"], "woman");
   EXPECT_EQ(whole.head["joints"].back()["name"], last_joint);
-  // A part of a recording is put onto the character as the whole is.
+  // A range of a recording is retargeted to the character as the whole recording is.
   const auto part =
       frames_in(with_character().get(at({"recordings", "villes", "motion"}),
                                      {{"format", "frames"}, {"character", "woman"}, {"from", "3000"}, {"to", "3100"}}));
@@ -159,7 +160,7 @@ TEST(Characters, StandOnTheirFeetWhereTheSignerDoes) {
   }
 }
 
-TEST(Characters, StreamsShowThem) {
+TEST(Characters, AreShownByStreams) {
   testing::TestServer server;
   server.databases.characters = calls::Characters(made_character());
   testing::StreamClient client(server.port());
@@ -175,7 +176,7 @@ TEST(Characters, StreamsShowThem) {
   EXPECT_THAT(other.next("error")["message"].get<std::string>(), HasSubstr("no character 'nobody'"));
 }
 
-TEST(Characters, TheirFileIsSentWhole) {
+TEST(Characters, TheirFileIsSentCompletely) {
   const kv::TestFolder folder;
   std::ofstream(folder / "woman.glb") << "glTF and more";
   testing::TestServer server;
@@ -232,7 +233,7 @@ TEST(Media, AreThoseThatTheAnnotationLinksAndTheServerHas) {
   }
 }
 
-TEST(Renders, TakeFilesOfTheOneThatIsDrawn) {
+TEST(Renders, AcceptFilesOfTheCurrentRendering) {
   const kv::TestFolder folder;
   TestApi api(false);
   std::filesystem::create_directory(folder / "drawn");
@@ -241,8 +242,8 @@ TEST(Renders, TakeFilesOfTheOneThatIsDrawn) {
     return api.api().answer(
         {.method = "PUT", .path = {"renders", render, file}, .body = {}, .body_file = folder / "body"});
   };
-  EXPECT_THAT(fault_of(put("secret", "done")), StartsWith("404 not_found: nothing is being rendered"));
-  EXPECT_FALSE(std::filesystem::exists(folder / "body")) << "it is taken away";
+  EXPECT_THAT(fault_of(put("secret", "done")), StartsWith("404 not_found: no rendering with this name"));
+  EXPECT_FALSE(std::filesystem::exists(folder / "body")) << "it is moved away";
   api.served().render = Render{.id = "secret", .folder = folder / "drawn"};
   EXPECT_THAT(fault_of(put("guessed", "done")), StartsWith("404 not_found"));
   for (const char* bad : {"..", ".done", "A.webm", "a/b", ""}) {

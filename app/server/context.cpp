@@ -50,10 +50,10 @@ Connection::~Connection() {
 IoThread::IoThread(Context& server) : context(server), sends(metrics.by_one_call), pacer(io, sends), look_timer_(io) {}
 
 void IoThread::run() {
-  sends.use(context.options.io_uring ? SendBatch::Way::one_call : SendBatch::Way::call_each);
+  sends.use(context.options.io_uring ? SendBatch::Mode::one_call : SendBatch::Mode::call_each);
   look();
   io.run();
-  sends.use(SendBatch::Way::call_each);
+  sends.use(SendBatch::Mode::call_each);
 }
 
 void IoThread::stop() {
@@ -75,7 +75,7 @@ void IoThread::look() {
     busy = busy || connection->busy();
   }
   if (stopping_) busy_ = busy;
-  // Threads end together, so that one that has nothing to do still tells who asks that the server drains.
+  // Threads end together, so that an idle one still answers clients that the server is draining.
   busy = std::ranges::any_of(context.threads, [](const auto& thread) { return thread->busy_.load(); });
   if (stopping_ && (!busy || now >= end_)) {
     context.over = true;

@@ -17,7 +17,7 @@ namespace {
 }
 
 std::string text_of(const std::string& name, const nlohmann::json& value) {
-  if (!value.is_string()) fail(fmt::format("'{}' must be a text", name));
+  if (!value.is_string()) fail(fmt::format("'{}' must be a string", name));
   return value.get<std::string>();
 }
 
@@ -40,7 +40,7 @@ bool truth_of(const std::string& name, const nlohmann::json& value) {
   return value.get<bool>();
 }
 
-/// The place of a word among those that are allowed.
+/// The index of a word among the allowed ones.
 template <std::size_t N>
 std::size_t one_of(const std::string& name, const nlohmann::json& value, const std::array<std::string_view, N>& words) {
   if (value.is_string()) {
@@ -56,7 +56,7 @@ FrameRate rate_of(const std::string& name, const nlohmann::json& value) {
   if (value.is_string()) rate = parse_frame_rate(value.get_ref<const std::string&>());
   if (value.is_number()) rate = parse_frame_rate(value.dump());
   if (!rate || rate->hertz() < 1 || rate->hertz() > 2'000) {
-    fail(fmt::format("'{}' must be 1 to 2000 frames a second, such as 60 or \"30000/1001\"", name));
+    fail(fmt::format("'{}' must be 1 to 2000 frames per second, such as 60 or \"30000/1001\"", name));
   }
   return *rate;
 }
@@ -76,7 +76,7 @@ const TransitionMethod* method_of(const std::string& name, const nlohmann::json&
     if (method.name == wanted) return find_transition_method(wanted);
     known.emplace_back(method.name);
   }
-  fail(fmt::format("no transition '{}'; there are {}", printable(wanted), fmt::join(known, ", ")));
+  fail(fmt::format("no transition '{}'; available: {}", printable(wanted), fmt::join(known, ", ")));
 }
 
 using Read = void (*)(ControlMessage&, const std::string& name, const nlohmann::json&);
@@ -197,7 +197,7 @@ ControlMessage parse_control(std::string_view text) {
     const nlohmann::json object = nlohmann::json::parse(text);
     if (!object.is_object()) fail("a control message is a JSON object");
     if (const auto id = object.find("id"); id != object.end()) {
-      if (!id->is_string() && !id->is_number()) fail("'id' must be a text or a number");
+      if (!id->is_string() && !id->is_number()) fail("'id' must be a string or a number");
       std::string written = id->dump();
       if (written.size() > 256) fail("'id' must not be longer than 256 bytes");
       message.id = std::move(written);

@@ -46,7 +46,7 @@ struct MessageCase {
   const char* id = "";
 };
 
-TEST(ControlMessage, WhatIsWrongIsSaidWithItsId) {
+TEST(ControlMessage, ErrorsContainTheId) {
   const MessageCase cases[] = {
       {"", "not JSON"},
       {"{", "not JSON"},
@@ -59,7 +59,7 @@ TEST(ControlMessage, WhatIsWrongIsSaidWithItsId) {
       {R"({"type":"sing","id":"x"})", "did you mean ping or sign?", "\"x\""},
       {R"({"type":"sign","id":2})", "'sign' needs a field 'utterance'", "2"},
       {R"({"type":"sign","utterence":"A"})", "did you mean utterance?"},
-      {R"({"type":"sign","utterance":7})", "'utterance' must be a text"},
+      {R"({"type":"sign","utterance":7})", "'utterance' must be a string"},
       {R"({"type":"sign","utterance":""})", "utterance:1:"},
       {R"({"type":"pause","ms":1})", "'pause' has no field 'ms'"},
       {R"({"type":"seek","ms":-1})", "'ms' must be a number"},
@@ -72,10 +72,10 @@ TEST(ControlMessage, WhatIsWrongIsSaidWithItsId) {
       {R"({"type":"open","batch":18446744073709551615})", "1 to 600"},
       {R"({"type":"open","pace":"slow"})", "one of live, fast"},
       {R"({"type":"open","look_ahead":17})", "1 to 16"},
-      {R"({"type":"open","rate":0})", "1 to 2000 frames a second"},
-      {R"({"type":"open","transition":"jump"})", "there are taught"},
+      {R"({"type":"open","rate":0})", "1 to 2000 frames per second"},
+      {R"({"type":"open","transition":"jump"})", "available: taught"},
       {R"({"type":"open","duration":"soon"})", "fitted, corpus"},
-      {R"({"type":"ping","id":{"a":1}})", "'id' must be a text or a number"},
+      {R"({"type":"ping","id":{"a":1}})", "'id' must be a string or a number"},
   };
   for (const MessageCase& one : cases) {
     try {
@@ -88,7 +88,7 @@ TEST(ControlMessage, WhatIsWrongIsSaidWithItsId) {
   }
 }
 
-TEST(ControlMessage, NestingTakesNoStack) {
+TEST(ControlMessage, DeepNestingNeedsNoStack) {
   const std::string deep = R"({"type":"ping","id":)" + std::string(60'000, '[');
   EXPECT_THROW(parse_control(deep), ControlError);
 }

@@ -13,13 +13,13 @@ namespace {
 
 constexpr unsigned kBinary = 2;
 constexpr std::size_t kRoomForHeader = 10;  // of a WebSocket frame, at most
-/// A client that has more text unread is told no events.
+/// A client with more unread text than this is sent no events.
 constexpr std::size_t kMostEvents = 16 * 1024;
-/// A frame that is so late is left out: whoever was kept waiting wants to see what is signed now.
+/// A frame later than this is dropped: after a delay, a viewer wants to see what is signed now.
 constexpr std::chrono::milliseconds kStale{100};
-/// How long a client that takes all it gets may keep others waiting.
+/// How long a client that accepts everything may keep others waiting.
 constexpr std::chrono::milliseconds kFastTurn{1};
-/// Places in a row that cannot be signed; more than that are told at the next turn.
+/// Consecutive places that cannot be signed; further ones are reported at the next turn.
 constexpr int kMostFaults = 16;
 
 std::size_t batch_of(std::size_t wanted, std::size_t frame_bytes, std::size_t message_bytes) {
@@ -50,7 +50,7 @@ void FrameSender::stop() noexcept {
   thread_.pacer.forget(*this);
 }
 
-/// The utterance of a message, every gloss of which is there. Throws MissingGlosses.
+/// The utterance of a message, with all its glosses known. Throws MissingGlosses.
 Utterance FrameSender::found(const ControlMessage& message) {
   const std::shared_ptr<const Segments> segments = served_.database().segments();
   if (!message.folds) {
@@ -117,7 +117,7 @@ void FrameSender::go() {
     if (send_fast()) thread_.pacer.want_work(*this);
     return;
   }
-  // Who waits at rest for glosses gets their first frame now; who is signing keeps the pace.
+  // If the player was idle, the first frame of new glosses is sent now; otherwise the pace is kept.
   const Clock::time_point now = Clock::now();
   if (!flowing_ || (was_idle_ && asked_ != kNever)) start_clock(now);
   thread_.pacer.wake_at(*this, tick(now));
@@ -140,7 +140,7 @@ void FrameSender::start_clock(Clock::time_point now) noexcept {
 
 void FrameSender::passed(std::size_t frames) noexcept {
   since_ += static_cast<std::int64_t>(frames);
-  while (since_ >= rate_.numerator) {  // whole seconds, so that nothing is ever rounded twice
+  while (since_ >= rate_.numerator) {  // whole seconds, so that rounding errors do not accumulate
     since_ -= rate_.numerator;
     start_ += std::chrono::seconds(rate_.denominator);
   }
@@ -170,7 +170,7 @@ Clock::time_point FrameSender::send_due(Clock::time_point now) noexcept {
   while (at <= now) {
     const auto next =
         at + std::chrono::duration_cast<Clock::duration>(static_cast<double>(batch_) * rate_.frame_time());
-    out_.settle();  // where two messages of this stream are due
+    out_.settle();  // if two messages of this stream are due
     const bool keep = out_.idle() && (now - at <= kStale || next > now);
     const std::uint64_t first = player_.frame();
     const std::size_t frames = take(batch_, keep);
@@ -200,7 +200,7 @@ bool FrameSender::work() {
   if (pace_ == Pace::fast) return send_fast();
   prepare(ahead_);
   if (flowing_ || !announced_ || ready_ == 0) return false;
-  // The clock stood still for want of frames: it goes on where there are some again.
+  // The clock had stopped because no frames were ready: it continues now.
   if (std::exchange(starved_, false)) thread_.metrics.starved.add();
   const Clock::time_point now = Clock::now();
   start_clock(now);
@@ -221,7 +221,7 @@ bool FrameSender::send_fast() {
       frames += more;
     }
     if (frames == 0) {
-      tell_events();
+      send_events();
       return false;
     }
     send(frames, number);
@@ -236,11 +236,11 @@ std::size_t FrameSender::take(std::size_t most, bool keep, std::size_t after) no
   for (std::size_t taken = 0; taken < most; ++taken) {
     if (!event_) event_ = player_.take_event();
     if (event_) {
-      // It is told right before the message that begins with its frame, so what was taken goes out first.
+      // An event is sent right before the message that begins with its frame, so frames already taken are sent first.
       if (taken + after > 0) return taken;
-      tell_events();
+      send_events();
     }
-    // Nothing is sent as fast as it goes while the signer only breathes.
+    // With Pace::fast nothing is sent while the signer is idle.
     std::optional<FrameView> frame;
     if (pace_ == Pace::live || !player_.idle()) frame = player_.next_in(room);
     if (!frame) {
@@ -282,9 +282,9 @@ void FrameSender::prepare(std::size_t frames) {
     try {
       ready_ = player_.prepare(frames);
       break;
-    } catch (const Error& error) {  // of one place, which is left out; the next call goes on
+    } catch (const Error& error) {  // of one place, which is skipped; the next call continues
       out_.send_text(error_text(error, {}));
-    } catch (const std::exception& error) {  // no memory, for one: this stream has no future, the others have
+    } catch (const std::exception& error) {  // such as lack of memory: this stream cannot continue, others can
       out_.send_text(error_text(ErrorCode::io, error.what(), {}));
       stop();
       return;
@@ -292,13 +292,13 @@ void FrameSender::prepare(std::size_t frames) {
   }
   thread_.metrics.prepare.observe(Seconds(Clock::now() - begin).count());
   announce();
-  if (ready_ == 0) tell_events();
+  if (ready_ == 0) send_events();
 }
 
 void FrameSender::announce() {
   const StreamHeader* header = player_.header();
   if (announced_ || header == nullptr) return;
-  StreamHeader told = *header;
+  StreamHeader shown = *header;
   if (character_) {
     std::shared_ptr<const calls::SignerStance> stance;
     try {
@@ -310,11 +310,11 @@ void FrameSender::announce() {
     RetargetOptions options = options_for(stance->frames, stance->signer, character_->character);
     options.face_joints = header->tracks.empty();
     retargeter_ = std::make_unique<Retargeter>(*header->skeleton, stance->signer, character_->character, options);
-    told.skeleton = character_->character.skeleton;
-    shown_ = Pose(*told.skeleton);
+    shown.skeleton = character_->character.skeleton;
+    shown_ = Pose(*shown.skeleton);
   }
   announced_ = true;
-  shape_ = told.shape();
+  shape_ = shown.shape();
   frame_bytes_ = bytes_of(shape_);
   rate_ = header->rate;
   batch_ = batch_of(batch_, frame_bytes_, thread_.context.options.limits.message_bytes);
@@ -323,13 +323,13 @@ void FrameSender::announce() {
   tracks_.resize(shape_.tracks);
   const auto half_second = static_cast<std::size_t>(rate_.hertz() / 2);
   ahead_ = std::clamp<std::size_t>(std::max(half_second, 2 * batch_), 64, Player::kMostReady);
-  out_.send_text(header_text(told, {.database = database_,
-                                    .character = character_ ? character_->name : std::string_view(),
-                                    .pace = pace_,
-                                    .batch = batch_}));
+  out_.send_text(header_text(shown, {.database = database_,
+                                     .character = character_ ? character_->name : std::string_view(),
+                                     .pace = pace_,
+                                     .batch = batch_}));
 }
 
-void FrameSender::tell_events() {
+void FrameSender::send_events() {
   for (; event_ || (event_ = player_.take_event()); event_.reset()) {
     if (out_.unread() > kMostEvents) {
       ++events_left_out_;

@@ -10,19 +10,19 @@
 
 namespace signweave::server {
 
-/// What stands before the frames of an answer, beside what the motion itself tells.
+/// What precedes the frames of an answer, in addition to what the motion itself contains.
 struct FramesHead {
   std::string_view database;
-  std::string recording;  ///< whose signer it is
+  std::string recording;  ///< the recording whose signer it is
   std::vector<std::pair<std::string, std::string>> declarations;
-  std::string character;  ///< whose joints the motion has; empty: the recording's
+  std::string character;  ///< the character whose joints the motion has; empty: the recording's
   double origin_ms = 0;   ///< annotation time of frame 0
   nlohmann::ordered_json rig;
-  nlohmann::json report = nullptr;  ///< of what was made
+  nlohmann::json report = nullptr;  ///< about the result
 };
 
-/// The format `frames`: four bytes with the length of a JSON text, that text, and then binary messages as a stream has
-/// them (docs/stream.md), one after the other.
+/// The format `frames`: the length of a JSON text in four bytes, that text, and then binary messages as in a stream
+/// (docs/stream.md), one after another.
 std::string frames_text(const Motion& motion, const FramesHead& head);
 
 }  // namespace signweave::server

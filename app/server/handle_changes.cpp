@@ -23,7 +23,7 @@ ApiResponse relayout_database(Call& call) {
         served.change([&](Database& database) {
           const std::size_t wanted =
               parameters.recordings.empty() ? database.contents()->recordings.size() : parameters.recordings.size();
-          job.tell({{"recordings", wanted}, {"changed", json::array()}, {"faults", json::array()}});
+          job.report({{"recordings", wanted}, {"changed", json::array()}, {"faults", json::array()}});
           const calls::Listener listener{
               .notice = {},
               .fault = [&](const std::string& line, const Remedies&) { job.add("faults", line); },
@@ -32,7 +32,7 @@ ApiResponse relayout_database(Call& call) {
           calls::run(database, parameters, listener, [&](const std::string& name) { job.add("changed", name); });
           calls::learn(database, listener);
         });
-        return json();  // what was told
+        return json();  // the result is what was reported
       });
   return json_answer(json{{"job", id}}, 202);
 }
@@ -42,7 +42,7 @@ ApiResponse remove_recording(Call& call) {
   ServedDatabase& served = call.database();
   if (const auto job = call.state.jobs.changing(served.name())) {
     throw Error(ErrorCode::conflict,
-                fmt::format("job {} is changing '{}' now; try again when it is over", *job, served.name()));
+                fmt::format("job {} is changing '{}' now; try again when it has ended", *job, served.name()));
   }
   json report;
   served.change([&](Database& database) {

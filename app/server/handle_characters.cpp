@@ -14,7 +14,7 @@ using nlohmann::json;
 
 namespace {
 
-/// Where the server has a linked file: beneath its folder of media, by the file's plain name. Empty where it has not.
+/// The server's copy of a linked file: in its media folder, by the file's plain name. Empty if there is none.
 std::filesystem::path served_file(const Call& call, const LinkedFile& linked) {
   const std::filesystem::path& folder = call.state.databases.media;
   if (folder.empty()) return {};
@@ -96,12 +96,12 @@ ApiResponse show_media(Call& call) {
   const std::vector<LinkedFile> media = media_of(call);
   if (error != std::errc{} || end != text.data() + text.size() || number >= media.size()) {
     throw Error(ErrorCode::not_found,
-                "no linked medium '" + printable(text) + "' of this recording; the list has them");
+                "no linked medium '" + printable(text) + "' in this recording; see the list of its media");
   }
   const std::filesystem::path file = served_file(call, media[number]);
   if (file.empty()) {
-    throw Error(ErrorCode::not_found,
-                "the server has not got '" + linked_file_name(media[number].url) + "'; serve its folder with --media");
+    throw Error(ErrorCode::not_found, "the server does not have '" + linked_file_name(media[number].url) +
+                                          "'; serve its folder with --media");
   }
   return {.status = 200, .content_type = media[number].mime_type, .headers = {}, .body = {}, .file = file};
 }

@@ -9,13 +9,13 @@ namespace signweave::server {
 void require_render(const Call& call) {
   const std::optional<Render>& render = call.state.databases.render;
   if (!render || render->id != call.names.at("render")) {
-    throw Error(ErrorCode::not_found, "nothing is being rendered under this name");
+    throw Error(ErrorCode::not_found, "no rendering with this name is in progress");
   }
   const std::string& file = call.names.at("file");
   const bool plain =
       !file.empty() && file.size() <= 40 && !file.starts_with('.') &&
       std::ranges::all_of(file, [](char c) { return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '.'; });
-  if (!plain) throw Error(ErrorCode::bad_input, "'" + printable(file) + "' is no name of a rendered file");
+  if (!plain) throw Error(ErrorCode::bad_input, "'" + printable(file) + "' is not a valid name of a rendered file");
 }
 
 ApiResponse put_rendered(Call& call) {
@@ -24,7 +24,7 @@ ApiResponse put_rendered(Call& call) {
   std::error_code error;
   if (call.request.body_file.empty()) throw Error(ErrorCode::bad_input, "the request has no body");
   std::filesystem::rename(call.request.body_file, to, error);
-  if (error) throw Error(ErrorCode::io, "what was rendered could not be kept: " + error.message());
+  if (error) throw Error(ErrorCode::io, "the rendered file could not be stored: " + error.message());
   return json_answer(
       nlohmann::json{{"file", to.filename().string()}, {"bytes", std::filesystem::file_size(to, error)}});
 }

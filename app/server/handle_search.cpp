@@ -15,22 +15,22 @@ namespace signweave::server {
 template <>
 struct Formats<calls::QueryCall> {
   static std::vector<std::string> names() { return {"json", "csv"}; }
-  static std::string help() { return "of the answer; json where not given"; }
+  static std::string help() { return "of the answer; json if not given"; }
 };
 template <>
 struct Formats<calls::StatsCall> {
   static std::vector<std::string> names() { return {"json", "csv", "svg"}; }
-  static std::string help() { return "of the answer: json where not given; svg draws the transitions"; }
+  static std::string help() { return "of the answer: json if not given; svg draws the transitions"; }
 };
 template <>
 struct Formats<calls::EvaluateCall> {
   static std::vector<std::string> names() { return {"json", "svg"}; }
-  static std::string help() { return "of the answer: json where not given; svg draws the summary"; }
+  static std::string help() { return "of the answer: json if not given; svg draws the summary"; }
 };
 template <>
 struct Formats<calls::SegmentCall> {
   static std::vector<std::string> names() { return {"json", "eaf"}; }
-  static std::string help() { return "of the answer: json where not given; eaf is an annotation file for a person"; }
+  static std::string help() { return "of the answer: json if not given; eaf is an annotation file for a person"; }
 };
 
 calls::SchemaWriter query_fields() {
@@ -58,7 +58,7 @@ ApiResponse find_segments(Call& call) {
   const calls::QueryReport report = calls::run(database, query);
   call.notices.insert(call.notices.end(), report.hints.begin(), report.hints.end());
   if (bounded && report.answers.size() == limits.answers) {
-    call.notices.push_back({"", "there may be more answers than the server gives: these are the first"});
+    call.notices.push_back({"", "there may be more answers than the server returns: these are the first"});
   }
   const std::shared_ptr<const Contents> contents = database.contents();
   std::set<std::string_view> recordings;

@@ -13,7 +13,7 @@ namespace signweave::server {
 
 namespace {
 
-/// Of every file that is written, and what only HTTP has.
+/// All file formats that are written, and those that only HTTP has.
 std::vector<std::string> synthesis_formats() {
   std::vector<std::string> names;
   for (const std::string_view ending : writable_extensions()) names.emplace_back(ending.substr(1));
@@ -21,13 +21,13 @@ std::vector<std::string> synthesis_formats() {
   names.emplace_back("score");
   return names;
 }
-/// A score gives nothing back but what it was.
+/// A score does not return the score itself.
 std::vector<std::string> score_formats() {
   std::vector<std::string> names = synthesis_formats();
   std::erase(names, "score");
   return names;
 }
-/// The annotation of a recording has a route of its own.
+/// The annotation of a recording has its own route.
 std::vector<std::string> motion_formats() {
   std::vector<std::string> names = score_formats();
   std::erase(names, "eaf");
@@ -36,7 +36,7 @@ std::vector<std::string> motion_formats() {
 constexpr const char* kScoreHelp =
     "the file itself instead of the report: json with every pose, eaf with the annotation, svg as a contact sheet, "
     "frames with every pose in the bytes of a stream";
-const std::string kSynthesisHelp = std::string(kScoreHelp) + ", score with what renderScore takes";
+const std::string kSynthesisHelp = std::string(kScoreHelp) + ", score with the input of renderScore";
 
 }  // namespace
 
@@ -55,12 +55,12 @@ struct Formats<calls::ScoreCall> {
 template <>
 struct Formats<calls::ExportCall> {
   static std::vector<std::string> names() { return motion_formats(); }
-  static std::string help() { return "of the file; bvh where not given"; }
+  static std::string help() { return "of the file; bvh if not given"; }
 };
 
 namespace {
 
-/// The annotation of a recording, or a part of it.
+/// Exports the annotation of a recording, or a range of it.
 struct AnnotationCall {
   calls::ExportCall call;
 };
@@ -73,8 +73,8 @@ void fields(Visit& visit, AnnotationCall& call) {
   visit(calls::tiers_field(), call.call.tiers);
 }
 
-/// The format that a request asks for: by its field, else by the first type that it accepts; empty for the report.
-/// Browsers accept nearly everything after what they want first.
+/// The requested format: from its field, else from the first type in the Accept header; empty for the report. Only the
+/// first type counts, because browsers accept nearly everything after their preferred one.
 std::string wanted_format(const Call& call, const std::string& format, const std::vector<std::string>& known) {
   if (!format.empty()) return format;
   const std::string_view accept = call.request.accept;
@@ -88,10 +88,10 @@ std::string wanted_format(const Call& call, const std::string& format, const std
 
 void require_sheet(bool signing_space, const std::string& format) {
   if (!signing_space || format == "svg") return;
-  throw Error(ErrorCode::bad_input, "signing_space: is drawn on contact sheets: ask for format svg");
+  throw Error(ErrorCode::bad_input, "signing_space: is drawn on contact sheets only; request format svg");
 }
 
-/// Null where none is wanted.
+/// Null if none is requested.
 calls::SharedCharacter wanted_character(const Call& call, const std::string& name) {
   return name.empty() ? nullptr : call.state.databases.characters.at(name);
 }
@@ -157,7 +157,7 @@ ApiResponse sign_utterance(Call& call) {
   require_sheet(sign.how.signing_space, format);
   const std::size_t places = parse_utterance(sign.utterance).places.size();
   if (places > call.state.limits.glosses) {
-    throw too_large(fmt::format("the utterance has {} places, and may have {}", places, call.state.limits.glosses));
+    throw too_large(fmt::format("the utterance has {} places; the limit is {}", places, call.state.limits.glosses));
   }
   const Database& database = call.database().database();
   calls::tell_damage(database, call.listener());
@@ -169,18 +169,18 @@ ApiResponse render_score(Call& call) {
   const std::string format = wanted_format(call, asked, score_formats());
   require_sheet(how.signing_space, format);
   if (format.empty() && !how.frames.empty()) {
-    throw Error(ErrorCode::bad_input, "frames: the report is of the whole score; ask for a format of motion too");
+    throw Error(ErrorCode::bad_input, "frames: the report covers the whole score; also request a format of motion");
   }
   if (call.request.body.empty()) {
-    throw Error(ErrorCode::bad_input, "the body must be a score, as sign and edit give it in the format score");
+    throw Error(ErrorCode::bad_input, "the body must be a score, as returned by sign and edit in the format score");
   }
   const Score score = score_from_json(call.request.body, "score");
   if (score.clips.size() > call.state.limits.glosses) {
     throw too_large(
-        fmt::format("the score has {} clips, and may have {}", score.clips.size(), call.state.limits.glosses));
+        fmt::format("the score has {} clips; the limit is {}", score.clips.size(), call.state.limits.glosses));
   }
   if (score.frames > call.state.limits.frames) {
-    throw too_large(fmt::format("the score has {} frames, and may have {}", score.frames, call.state.limits.frames));
+    throw too_large(fmt::format("the score has {} frames; the limit is {}", score.frames, call.state.limits.frames));
   }
   const Database& database = call.database().database();
   calls::tell_damage(database, call.listener());
@@ -193,7 +193,7 @@ ApiResponse edit_recording(Call& call) {
   require_sheet(edit.how.signing_space, format);
   if (edit.replace.size() > call.state.limits.glosses) {
     throw too_large(
-        fmt::format("there are {} replacements, and may be {}", edit.replace.size(), call.state.limits.glosses));
+        fmt::format("there are {} replacements; the limit is {}", edit.replace.size(), call.state.limits.glosses));
   }
   const Database& database = call.database().database();
   calls::tell_damage(database, call.listener());
@@ -214,7 +214,7 @@ ApiResponse export_motion(Call& call) {
   call.notices.insert(call.notices.end(), made.notices.begin(), made.notices.end());
   if (format == "frames") {
     const double origin = 1e3 * made.info.clock.time_of(static_cast<double>(made.frames.begin)).count();
-    nlohmann::json report;  // of what was captured there is none
+    nlohmann::json report;  // none for a captured recording
     if (!made.remade.empty()) report = {{"remade", calls::json_of_remade(made)}};
     return file_answer(file, made.info.name,
                        frames_text(*made.motion, {.database = call.database().name(),

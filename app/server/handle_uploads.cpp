@@ -8,7 +8,7 @@ namespace {
 
 using nlohmann::json;
 
-/// How far a job is.
+/// Reads the state of a job.
 struct JobCall {
   std::string job;
   std::size_t from = 0;
@@ -17,21 +17,20 @@ struct JobCall {
 template <class Visit>
 void fields(Visit& visit, JobCall& call) {
   visit(calls::Field{.name = "job", .help = "what the call that began the job answered", .required = true}, call.job);
-  visit(
-      calls::Field{.name = "from",
-                   .help = "of the result's list of recordings only what is at this number and after it, counted from "
-                           "0; for those who know what is before it",
-                   .range = calls::Range{std::int64_t{0}, std::int64_t{1'000'000'000}}},
-      call.from);
+  visit(calls::Field{.name = "from",
+                     .help = "index of the first entry to return of the result's list of recordings, counted from "
+                             "0; for clients that already have the earlier ones",
+                     .range = calls::Range{std::int64_t{0}, std::int64_t{1'000'000'000}}},
+        call.from);
 }
 
-/// What a job over the files of an upload tells: every recording as soon as it is over.
-class Told {
+/// Reports the progress of a job over the files of an upload: each recording as soon as it is finished.
+class JobReport {
  public:
-  Told(const Pairing& pairing, std::string folder, JobContext& job) : folder_(std::move(folder)), job_(job) {
-    job_.tell({{"recordings", json::array()},
-               {"notices", without_folder(calls::json_of(pairing.notices), folder_)},
-               {"faults", json::array()}});
+  JobReport(const Pairing& pairing, std::string folder, JobContext& job) : folder_(std::move(folder)), job_(job) {
+    job_.report({{"recordings", json::array()},
+                 {"notices", without_folder(calls::json_of(pairing.notices), folder_)},
+                 {"faults", json::array()}});
   }
   void add(json recording) { job_.add("recordings", without_folder(std::move(recording), folder_)); }
   calls::Listener listener() {
@@ -47,31 +46,31 @@ class Told {
   JobContext& job_;
 };
 
-/// Does the work of an import; false where a recording was at fault.
+/// Runs an import; false if a recording failed.
 bool import_files(Database& database, const Pairing& pairing, const ImportOptions& options, const std::string& folder,
                   JobContext& job) {
-  Told told(pairing, folder, job);
-  const calls::Listener listener = told.listener();
+  JobReport report(pairing, folder, job);
+  const calls::Listener listener = report.listener();
   bool good = true;
   calls::run(database, pairing, options, listener, [&](const calls::Imported& imported) {
     if (imported.error) good = false;
     json one = calls::json_of(imported);
     const std::optional<RecordingInfo> info = database.info(imported.name);
     one["declarations"] = !info ? json::object() : calls::declarations_json(info->declarations);
-    told.add(std::move(one));
+    report.add(std::move(one));
   });
   calls::learn(database, listener);
   return good;
 }
 
-/// An upload that a job reads: nobody changes it meanwhile.
+/// An upload that a job reads; it cannot be changed meanwhile.
 struct HeldUpload {
   std::filesystem::path folder;
   ImportOptions options;
   Pairing pairing;
 };
 
-/// Of checked fields. What is thrown releases the upload.
+/// Expects checked fields. Releases the upload if it throws.
 HeldUpload hold_upload(Call& call, calls::ImportCall parameters) {
   const std::string& upload = call.names.at("upload");
   Uploads& uploads = call.state.uploads;
@@ -80,7 +79,7 @@ HeldUpload hold_upload(Call& call, calls::ImportCall parameters) {
     const ResolveFiles resolve_files{held.folder};
     fields(resolve_files, parameters);
     held.options = calls::options_of(parameters);
-    // A table that comes over the network may only name files of the upload.
+    // A table received over the network may only name files of the upload.
     held.pairing = calls::pairing_of(
         parameters, parameters.pairs.empty() ? std::vector{held.folder} : std::vector<std::filesystem::path>{}, true);
     if (held.pairing.jobs.empty()) throw Error(ErrorCode::bad_input, "the upload has no motion or annotation file");
@@ -136,7 +135,7 @@ ApiResponse import_upload(Call& call) {
   const std::string upload = call.names.at("upload");
   Uploads& uploads = call.state.uploads;
   const HeldUpload held = hold_upload(call, parameters);
-  const bool some = !parameters.recordings.empty();  // the others may be wanted later
+  const bool some = !parameters.recordings.empty();  // the others may be needed later
   try {
     const std::string id = call.state.jobs.start(
         {.name = "import"}, served.name(), [&served, &uploads, upload, held, some](JobContext& job) {
@@ -145,12 +144,12 @@ ApiResponse import_upload(Call& call) {
             served.change([&](Database& database) {
               good = import_files(database, held.pairing, held.options, held.folder.string() + "/", job);
             });
-          } catch (...) {  // it may be tried again, with other parameters
+          } catch (...) {  // it may be tried again with other parameters
             uploads.release(upload, false);
             throw;
           }
           uploads.release(upload, !some && good);
-          return json();  // what was told
+          return json();  // the result is what was reported
         });
     return json_answer(json{{"job", id}}, 202);
   } catch (...) {
@@ -169,11 +168,11 @@ ApiResponse inspect_upload(Call& call) {
     const std::string id = call.state.jobs.start(
         {.name = "inspect", .changes = false}, served.name(), [&served, &uploads, upload, held](JobContext& job) {
           try {
-            Told told(held.pairing, held.folder.string() + "/", job);
+            JobReport report(held.pairing, held.folder.string() + "/", job);
             calls::inspect(served.database(), held.pairing, held.options, held.folder.string() + ".inspected",
-                           told.listener(), [&](const nlohmann::ordered_json& one) { told.add(one); });
+                           report.listener(), [&](const nlohmann::ordered_json& one) { report.add(one); });
             uploads.release(upload, false);
-            return json();  // what was told
+            return json();  // the result is what was reported
           } catch (...) {
             uploads.release(upload, false);
             throw;

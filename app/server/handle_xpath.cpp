@@ -18,7 +18,7 @@ ApiResponse find_nodes(Call& call) {
   calls::tell_damage(database, call.listener());
   const std::vector<XPathAnswer> answers = calls::run(database, wanted);
   if (bounded && answers.size() == limits.answers) {
-    call.notices.push_back({"", "there may be more answers than the server gives: these are the first"});
+    call.notices.push_back({"", "there may be more answers than the server returns: these are the first"});
   }
   const std::shared_ptr<const Contents> contents = database.contents();
   std::string last;

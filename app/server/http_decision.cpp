@@ -10,7 +10,7 @@ namespace signweave::server {
 namespace {
 
 Reply method_not_allowed(std::string_view method, std::string_view allowed) {
-  Reply reply = error_reply(405, "method_not_allowed", fmt::format("{} is not possible here", printable(method)));
+  Reply reply = error_reply(405, "method_not_allowed", fmt::format("{} is not allowed here", printable(method)));
   reply.headers.emplace_back("Allow", allowed);
   return reply;
 }
@@ -34,21 +34,22 @@ RouteClass class_of(const HttpTarget& target) {
 
 }  // namespace
 
-Decision decide(const RequestHead& head, const ServerOptions& options, const Access& access) {
+Decision decide(const RequestHead& head, const ServerOptions& options, const AccessControl& access) {
   const auto refuse = [](Reply reply) { return Decision{.route = RouteClass::refused, .reply = std::move(reply)}; };
   if (head.version != 10 && head.version != 11) {
-    return refuse(error_reply(505, "unsupported", "only HTTP/1.0 and 1.1 are spoken here"));
+    return refuse(error_reply(505, "unsupported", "only HTTP/1.0 and 1.1 are supported"));
   }
   if (head.hosts > 1 || (head.hosts == 0 && head.version == 11)) {
-    return refuse(error_reply(400, "bad_input", "a request needs one Host header"));
+    return refuse(error_reply(400, "bad_input", "a request needs exactly one Host header"));
   }
   if (head.target.size() > options.limits.target_bytes) {
     return refuse(error_reply(414, "bad_input",
                               fmt::format("a path must not be longer than {} bytes", options.limits.target_bytes)));
   }
   if (head.hosts == 1 && !access.host_is_ours(head.host)) {
-    return refuse(error_reply(421, "bad_input",
-                              fmt::format("'{}' is not this server; --allow-origin lets it be", printable(head.host))));
+    return refuse(
+        error_reply(421, "bad_input",
+                    fmt::format("'{}' is not this server; use --allow-origin to allow it", printable(head.host))));
   }
   std::optional<HttpTarget> target = parse_target(head.target);
   if (!target) return refuse(error_reply(400, "bad_input", "the path cannot be read"));
@@ -69,11 +70,11 @@ Decision decide(const RequestHead& head, const ServerOptions& options, const Acc
   if (needs_own_origin && !access.origin_is_ours(head.origin, head.host)) {
     return answer(error_reply(
         403, "bad_input",
-        fmt::format("origin '{}' is not this server's; --allow-origin lets it be", printable(head.origin))));
+        fmt::format("origin '{}' is not this server's; use --allow-origin to allow it", printable(head.origin))));
   }
   const bool needs_token = decision.route != RouteClass::file && decision.route != RouteClass::health;
   if (needs_token) {
-    // A page cannot set headers of a WebSocket, so that one may carry its token in the path.
+    // A page cannot set headers of a WebSocket, so a stream may pass its token in the query.
     const auto found = decision.target.query.find("token");
     const bool in_query = decision.route == RouteClass::stream && found != decision.target.query.end();
     if (!access.token_is_right(head.authorization, in_query ? std::string_view(found->second) : std::string_view())) {
@@ -85,7 +86,7 @@ Decision decide(const RequestHead& head, const ServerOptions& options, const Acc
   decision.target.query.erase("token");
   if (decision.route != RouteClass::api && !reads) return answer(method_not_allowed(head.method, "GET, HEAD"));
   if (decision.route == RouteClass::stream && (!head.upgrade || head.method != "GET")) {
-    Reply reply = error_reply(426, "bad_input", "/api/stream is a WebSocket; docs/stream.md tells how to speak to it");
+    Reply reply = error_reply(426, "bad_input", "/api/stream is a WebSocket; docs/stream.md describes its protocol");
     reply.headers.emplace_back("Upgrade", "websocket");
     return answer(std::move(reply));
   }

@@ -11,28 +11,28 @@
 
 namespace signweave::server {
 
-/// What of a request's header decides where it goes. Texts are borrowed from the request.
+/// The parts of a request's header that decide how it is answered. Texts are borrowed from the request.
 struct RequestHead {
   std::string_view method;
   std::string_view target;
-  unsigned version = 11;  ///< 10 is HTTP/1.0
-  std::size_t hosts = 1;  ///< how many Host headers there are
+  unsigned version = 11;  ///< 10 for HTTP/1.0
+  std::size_t hosts = 1;  ///< number of Host headers
   std::string_view host;
   std::string_view origin;
   std::string_view authorization;
   bool upgrade = false;  ///< to a WebSocket
 };
 
-/// Where a request goes.
+/// How a request is answered.
 struct Decision {
   RouteClass route = RouteClass::refused;
-  std::optional<Reply> reply;  ///< already the answer
+  std::optional<Reply> reply;  ///< set if the answer is decided already
   HttpTarget target;
-  bool allowed_origin = false;  ///< of `--allow-origin`: gets CORS headers
+  bool allowed_origin = false;  ///< given by `--allow-origin`: gets CORS headers
 };
 
-/// Decides by the header alone: version, Host, Origin, token, method and path. Calls, files and streams come back
+/// Decides from the header alone: version, Host, Origin, token, method and path. Calls, files and streams are returned
 /// without a reply; everything else has one.
-Decision decide(const RequestHead& head, const ServerOptions& options, const Access& access);
+Decision decide(const RequestHead& head, const ServerOptions& options, const AccessControl& access);
 
 }  // namespace signweave::server

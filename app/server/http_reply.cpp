@@ -23,7 +23,7 @@ what is served: <a href="/api/databases">/api/databases</a>. No folder of pages 
 </html>
 )";
 
-/// Scripts and styles from here alone; WebAssembly; pictures and models that a page makes itself.
+/// Scripts and styles only from this server; WebAssembly; pictures and models that a page generates itself.
 constexpr std::string_view kPolicy =
     "default-src 'self'; script-src 'self' 'wasm-unsafe-eval'; style-src 'self' 'unsafe-inline'; "
     "img-src 'self' data: blob:; media-src 'self' blob:; worker-src 'self' blob:; connect-src 'self' blob: data:; "

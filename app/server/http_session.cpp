@@ -75,7 +75,7 @@ void HttpSession::start() {
     thread_.metrics.refused.add();
     keep_alive_ = false;
     decision_ = {};
-    Reply refusal = error_reply(503, "busy", full ? "too many connections" : "too many connections of this address");
+    Reply refusal = error_reply(503, "busy", full ? "too many connections" : "too many connections from this address");
     refusal.headers.emplace_back("Retry-After", "5");
     reply(std::move(refusal));
     return;
@@ -112,7 +112,7 @@ void HttpSession::read_header() {
   begin_ = Clock::now();
   parser_.emplace();
   parser_->header_limit(limits.header_bytes);
-  parser_->body_limit(boost::none);  // counted here, for it depends on the path
+  parser_->body_limit(boost::none);  // counted here, because the limit depends on the path
   http::async_read_header(socket_, buffer_, *parser_,
                           [self = shared_from_this()](Error error, std::size_t) { self->on_header(error); });
 }
@@ -146,14 +146,14 @@ void HttpSession::on_header(Error error) {
   const auto coding = http::field::transfer_encoding;
   const auto& fields = parser_->get();
   if (fields.count(coding) > 1 || (fields.count(coding) == 1 && !boost::beast::iequals(fields[coding], "chunked"))) {
-    keep_alive_ = false;  // where the body ends cannot be known
-    return reply(error_reply(400, "bad_input", "the only Transfer-Encoding that is understood is chunked"));
+    keep_alive_ = false;  // the end of the body is unknown
+    return reply(error_reply(400, "bad_input", "the only supported Transfer-Encoding is chunked"));
   }
   if (decision_.reply) return reply(*std::exchange(decision_.reply, {}));
-  go_on();
+  handle_request();
 }
 
-void HttpSession::go_on() {
+void HttpSession::handle_request() {
   Context& context = thread_.context;
   switch (decision_.route) {
     case RouteClass::health: {
@@ -197,7 +197,7 @@ void HttpSession::go_on() {
   to_file ? open_file() : ask_for_body();
 }
 
-/// A file is made only where the call may take it, or anybody could fill the disk.
+/// A file is created only if the call may accept it, or anyone could fill the disk.
 void HttpSession::open_file() {
   boost::asio::post(thread_.context.disk, [self = shared_from_this()]() mutable {
     IoThread& thread = self->thread_;
@@ -208,11 +208,11 @@ void HttpSession::open_file() {
       self->body_file_ = ::open(request.body_file.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC | O_NOFOLLOW, 0600);
       self->in_file_ = self->body_file_ >= 0;
     }
-    // The session must end on its own thread, so nothing here may keep it.
+    // The session must be destroyed on its own thread, so this thread must not keep a reference.
     boost::asio::post(thread.io, [self = std::move(self), refusal = std::move(refusal)]() mutable {
       if (refusal) return self->answered(*std::move(refusal));
       if (self->in_file_) return self->ask_for_body();
-      self->reply(error_reply(500, "io", "no room for the body of the request"));
+      self->reply(error_reply(500, "io", "the body of the request could not be stored"));
     });
   });
 }
@@ -220,14 +220,15 @@ void HttpSession::open_file() {
 void HttpSession::ask_for_body() {
   const bool asked = boost::beast::iequals(parser_->get()[http::field::expect], "100-continue");
   if (parser_->is_done() || !asked) return read_body();
-  constexpr std::string_view kGoOn = "HTTP/1.1 100 Continue\r\n\r\n";
-  boost::asio::async_write(socket_, boost::asio::buffer(kGoOn), [self = shared_from_this()](Error error, std::size_t) {
-    if (!error) self->read_body();
-  });
+  constexpr std::string_view kContinue = "HTTP/1.1 100 Continue\r\n\r\n";
+  boost::asio::async_write(socket_, boost::asio::buffer(kContinue),
+                           [self = shared_from_this()](Error error, std::size_t) {
+                             if (!error) self->read_body();
+                           });
 }
 
 void HttpSession::read_body() {
-  if (!socket_.is_open()) return;  // closed meanwhile, such as by a stop
+  if (!socket_.is_open()) return;  // closed meanwhile, for instance by a stop
   if (parser_->is_done()) {
     if (body_file_ >= 0) ::close(std::exchange(body_file_, -1));
     return call();
@@ -272,16 +273,16 @@ void HttpSession::store_body(std::size_t bytes) {
     IoThread& thread = self->thread_;
     boost::asio::post(thread.io, [self = std::move(self), good = written == bytes] {
       if (good) return self->read_body();
-      self->reply(error_reply(507, "io", "the body of the request could not be kept; is the disk full?"));
+      self->reply(error_reply(507, "io", "the body of the request could not be stored; is the disk full?"));
     });
   });
 }
 
-/// Counts bytes that are held in memory; false where all connections together hold too many.
+/// Counts bytes held in memory; false if all connections together would hold too many.
 bool HttpSession::hold(std::uint64_t bytes) {
   Context& context = thread_.context;
   const std::uint64_t before = context.held.fetch_add(bytes);
-  if (before > 0 && before + bytes > context.options.limits.held_bytes) {  // one alone may be as long as it is
+  if (before > 0 && before + bytes > context.options.limits.held_bytes) {  // a single one may have any length
     context.held -= bytes;
     return false;
   }
@@ -304,13 +305,13 @@ void HttpSession::call() {
   }
   state_ = State::answering;
   ++context.calls;
-  in_file_ = false;  // the call takes it away
+  in_file_ = false;  // the call moves it away
   boost::asio::post(context.workers, [self = shared_from_this(), request = std::move(request_)]() mutable {
     IoThread& thread = self->thread_;
     ApiResponse answer;
     if (!thread.context.over) {
       answer = thread.context.api.answer(std::move(request));
-    } else if (!request.body_file.empty()) {  // nobody is there any more
+    } else if (!request.body_file.empty()) {  // the client has gone
       std::error_code ignored;
       std::filesystem::remove(request.body_file, ignored);
     }
@@ -322,10 +323,10 @@ void HttpSession::call() {
 }
 
 void HttpSession::answered(ApiResponse answer) {
-  release();  // the body went with the call
+  release();  // the body was moved into the call
   if (!answer.file.empty()) {
     std::optional<StaticFile> file = open_plain(answer.file);
-    if (!file) return reply(error_reply(404, "not_found", "the file is not there any more"));
+    if (!file) return reply(error_reply(404, "not_found", "the file no longer exists"));
     file->content_type = std::move(answer.content_type);
     return send_file(*std::move(file), std::move(answer.headers));
   }
@@ -362,11 +363,11 @@ void HttpSession::upgrade() {
   }
   if (database == nullptr) {
     if (context.databases.all().size() != 1) {
-      return refuse(400, "bad_input", "several databases are served: say which, /api/stream?database=NAME");
+      return refuse(400, "bad_input", "several databases are served: choose one, /api/stream?database=NAME");
     }
     database = context.databases.all().front().get();
   }
-  // Of the answer's class, but it goes on for as long as the stream does.
+  // Counted in the class of its request, but it lasts as long as the stream.
   thread_.metrics.requests[static_cast<std::size_t>(RouteClass::stream)][1].add();
   state_ = State::ended;
   start_stream(thread_, std::move(socket_), *database, *parser_, std::exchange(entered_, false), address_);

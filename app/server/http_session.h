@@ -14,7 +14,8 @@
 
 namespace signweave::server {
 
-/// One HTTP connection: reads a request, answers it, reads the next. A WebSocket's connection goes over to a stream.
+/// One HTTP connection: reads a request, answers it, reads the next. A request for a WebSocket turns the connection
+/// into a stream.
 /// More than fifteen members: one state machine, whose steps share socket, request, answer and deadline.
 class HttpSession : public Connection, public std::enable_shared_from_this<HttpSession> {
  public:
@@ -30,18 +31,18 @@ class HttpSession : public Connection, public std::enable_shared_from_this<HttpS
  private:
   enum class State {
     waiting,    ///< for the first byte of a request
-    header,     ///< some of it is there
-    body,       ///< of the request
+    header,     ///< a part of it has arrived
+    body,       ///< reading the body of the request
     answering,  ///< a call is being answered
-    sending,    ///< the answer
-    ended,      ///< reading what comes still, so that the client gets the answer
+    sending,    ///< sending the answer
+    ended,      ///< reading what the client still sends, so that it gets the answer
   };
   using Error = boost::system::error_code;
 
   void read_first();
   void read_header();
   void on_header(Error error);
-  void go_on();
+  void handle_request();
   void open_file();
   void ask_for_body();
   void read_body();
@@ -63,31 +64,31 @@ class HttpSession : public Connection, public std::enable_shared_from_this<HttpS
 
   boost::asio::ip::tcp::socket socket_;
   boost::asio::ip::address address_;
-  bool entered_ = false;  // in the address book
+  bool entered_ = false;  // counted in the address book
   boost::beast::flat_buffer buffer_;
   std::optional<boost::beast::http::request_parser<boost::beast::http::buffer_body>> parser_;
   State state_ = State::waiting;
   Clock::time_point deadline_;
-  Clock::time_point begin_;  // of the request
+  Clock::time_point begin_;  // when the request began
 
   Decision decision_;
   bool head_only_ = false;
   bool keep_alive_ = true;
-  std::string origin_;  // that is allowed to read the answer
+  std::string origin_;  // allowed to read the answer
 
   ApiRequest request_;
   bool in_file_ = false;  // the body goes into request_.body_file
   int body_file_ = -1;
-  std::uint64_t most_body_ = 0;  // bytes that the body may have
+  std::uint64_t most_body_ = 0;  // most bytes of the body
   std::uint64_t body_size_ = 0;
-  std::uint64_t held_ = 0;  // bytes of the body or the answer that count with those of all connections
-  std::string chunk_;       // of a body or a file
+  std::uint64_t held_ = 0;  // bytes of the body or the answer that count towards those of all connections
+  std::string chunk_;       // part of a body or a file
 
   Reply reply_;
   std::string head_;
-  int file_ = -1;             // the answer's body, where it is a file
-  std::uint64_t begins_ = 0;  // where in the file the answer's body does
-  std::uint64_t sent_ = 0;    // of the answer's body
+  int file_ = -1;             // the answer's body, if it is a file
+  std::uint64_t begins_ = 0;  // where in the file the answer's body begins
+  std::uint64_t sent_ = 0;    // bytes of the answer's body
   std::uint64_t length_ = 0;
   std::size_t lingered_ = 0;
 };

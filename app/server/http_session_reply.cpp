@@ -7,7 +7,7 @@
 
 #include "app/server/http_session.h"
 
-// How a connection sends its answers: in chunks, so that a client that takes nothing is told from one that is slow.
+// A connection sends its answers in chunks, so that a client that accepts nothing can be distinguished from a slow one.
 
 namespace signweave::server {
 namespace {
@@ -47,7 +47,7 @@ void HttpSession::send_file(StaticFile file, std::vector<std::pair<std::string, 
                                  {"Accept-Ranges", "bytes"}});
   if (range && range->end == 0) {
     ::close(file.descriptor);
-    Reply refusal = error_reply(416, "bad_input", "the Range lies outside of the file");
+    Reply refusal = error_reply(416, "bad_input", "the Range is outside the file");
     refusal.headers.emplace_back("Content-Range", fmt::format("bytes */{}", file.size));
     return reply(std::move(refusal));
   }
@@ -76,7 +76,7 @@ void HttpSession::reply(Reply reply) {
   state_ = State::sending;
   sent_ = 0;
   if (file_ < 0) length_ = reply_.body.size();
-  // What is left of a body would be taken for the next request.
+  // The unread rest of a body would be taken for the next request.
   const bool read_whole = parser_ && parser_->is_done();
   keep_alive_ = keep_alive_ && read_whole && !reply_.close && !thread_.context.draining;
   if (body_file_ >= 0) ::close(std::exchange(body_file_, -1));
@@ -116,7 +116,7 @@ void HttpSession::send_next() {
     const ssize_t n = ::pread(self->file_, self->chunk_.data(), chunk, static_cast<off_t>(at));
     IoThread& thread = self->thread_;
     boost::asio::post(thread.io, [self = std::move(self), n] {
-      if (n <= 0) return self->close();  // it has become shorter: what was promised cannot be kept
+      if (n <= 0) return self->close();  // the file has become shorter: the announced length cannot be sent
       self->send_chunk(self->chunk_.data(), static_cast<std::size_t>(n));
     });
   });

@@ -28,7 +28,7 @@ TEST(HttpTarget, AFolderHasALastEmptySegment) {
   EXPECT_THAT(parse_target("//docs//x")->path, ElementsAre("docs", "x"));
 }
 
-TEST(HttpTarget, WhatNoNameMayHoldIsRefused) {
+TEST(HttpTarget, CharactersNotAllowedInNamesAreRefused) {
   for (const char* bad : {"", "x", "*", "http://evil/", "/%", "/%4", "/%zz", "/a%00b", "/?x=%", "/?%zz=1"}) {
     EXPECT_FALSE(parse_target(bad)) << bad;
   }

@@ -1,4 +1,4 @@
-// Requests as they come from everywhere, over real sockets.
+// Requests of all kinds, over real sockets.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/resource.h>
@@ -86,7 +86,7 @@ TEST(Http, MalformedRequestsAreAnsweredAndClosed) {
     if (status == 413) {
       EXPECT_THAT(answer.body, HasSubstr("\"too_large\""));
     }
-    EXPECT_EQ(client.read_all(), "") << "what follows might be anything, after " << request.substr(0, 120);
+    EXPECT_EQ(client.read_all(), "") << "the bytes that follow may be anything, after " << request.substr(0, 120);
   }
   EXPECT_EQ(get(server.port(), "/health").status, 200);
 }
@@ -98,7 +98,7 @@ TEST(Http, ConnectionsServeRequestAfterRequest) {
     client.send("GET /health HTTP/1.1\r\nHost: localhost\r\n\r\n");
     EXPECT_EQ(read_answer(client).status, 200);
   }
-  // Several at once are answered in their order, HEAD without a body.
+  // Several pipelined requests are answered in order, HEAD without a body.
   client.send(
       "GET /health HTTP/1.1\r\nHost: localhost\r\n\r\nHEAD / HTTP/1.1\r\nHost: localhost\r\n\r\n"
       "GET /nothing HTTP/1.1\r\nHost: localhost\r\n\r\nGET /health HTTP/1.0\r\n\r\n");
@@ -111,7 +111,7 @@ TEST(Http, ConnectionsServeRequestAfterRequest) {
   EXPECT_EQ(client.read_all(), "") << "HTTP/1.0 closes";
 }
 
-TEST(Http, AClientThatExpectsToBeAskedForItsBodyIsAsked) {
+TEST(Http, AClientThatExpectsContinueReceivesIt) {
   const TestServer server;
   Client client(server.port());
   client.send("POST /api/x HTTP/1.1\r\nHost: localhost\r\nContent-Length: 2\r\nExpect: 100-continue\r\n\r\n");
@@ -120,7 +120,7 @@ TEST(Http, AClientThatExpectsToBeAskedForItsBodyIsAsked) {
   EXPECT_EQ(read_answer(client).status, 404);
 }
 
-TEST(Http, FilesComeWhenTheyChanged) {
+TEST(Http, FilesAreSentOnlyIfTheyChanged) {
   const kv::TestFolder folder;
   const std::string big(300'000, 'b');
   std::ofstream(folder / "page.html") << "<p>hello";
@@ -139,7 +139,7 @@ TEST(Http, FilesComeWhenTheyChanged) {
   EXPECT_EQ(get(server.port(), "/").status, 404) << "the folder has no index.html";
 }
 
-TEST(Http, PartsOfFilesComeWhereTheyAreAskedFor) {
+TEST(Http, RequestedRangesOfFilesAreSent) {
   const kv::TestFolder folder;
   std::string long_text;
   for (int i = 0; long_text.size() < 200'000; ++i) long_text += std::to_string(i) + '\n';
@@ -158,7 +158,7 @@ TEST(Http, PartsOfFilesComeWhereTheyAreAskedFor) {
   EXPECT_EQ(whole.status, 200) << "it has changed since";
   EXPECT_EQ(whole.body, long_text);
   EXPECT_THAT(whole.head, HasSubstr("Accept-Ranges: bytes\r\n"));
-  // One connection, a part and then a whole: nothing of the first is left.
+  // On one connection, a range and then a whole file: nothing of the first affects the second.
   Client client(server.port());
   client.send("GET /long.txt HTTP/1.1\r\nHost: localhost\r\nRange: bytes=5-9\r\n\r\n");
   EXPECT_EQ(read_answer(client).body, long_text.substr(5, 5));
@@ -176,7 +176,7 @@ TEST(Http, AllowedOriginsMayRead) {
               Not(HasSubstr("Access-Control")));
 }
 
-TEST(Http, ConnectionsThatNeverSpeakAreClosedAndHarmNobody) {
+TEST(Http, SilentConnectionsAreClosedAndAffectNoOthers) {
   rlimit files{};
   ::getrlimit(RLIMIT_NOFILE, &files);
   files.rlim_cur = files.rlim_max;
@@ -216,7 +216,7 @@ TEST(Http, MoreConnectionsThanAllowedAreRefused) {
   EXPECT_THAT(refused.head, HasSubstr("Retry-After: "));
   held.clear();
   int status = 503;
-  for (int i = 0; status == 503 && i < 100; ++i) {  // until the server has seen them go
+  for (int i = 0; status == 503 && i < 100; ++i) {  // until the server has noticed that they have closed
     status = get(server.port(), "/health").status;
     std::this_thread::sleep_for(20ms);
   }
@@ -265,7 +265,7 @@ TEST(Http, AnUploadThatIsRefusedLeavesNothing) {
   EXPECT_EQ(ask(server.port(), chunked + "3\r\nabc\r\n0\r\n\r\n").status, 200);
 }
 
-TEST(Http, AnUploadThatNobodyOpenedIsRefusedBeforeItsBody) {
+TEST(Http, AnUnknownUploadIsRefusedBeforeItsBody) {
   const std::string file = "PUT /api/databases/demo/uploads/1/files/x.bvh HTTP/1.1\r\nHost: localhost\r\n";
   const std::string nowhere = "PUT /api/databases/none/uploads/1/files/x.bvh HTTP/1.1\r\nHost: localhost\r\n";
   const std::string length = "Content-Length: 1000000\r\nExpect: 100-continue\r\n\r\n";
@@ -277,7 +277,7 @@ TEST(Http, AnUploadThatNobodyOpenedIsRefusedBeforeItsBody) {
   EXPECT_EQ(writing.bodies(), 0u);
 }
 
-/// Asks again until the answer has this status, 5 s at most.
+/// Repeats a request until the answer has this status, for at most 5 s.
 void expect_soon(std::uint16_t port, const std::string& target, int status) {
   int got = 0;
   for (int i = 0; got != status && i < 100; ++i) {
@@ -287,7 +287,7 @@ void expect_soon(std::uint16_t port, const std::string& target, int status) {
   EXPECT_EQ(got, status) << target;
 }
 
-TEST(Http, AnswersThatNobodyTakesHoldBoundedMemory) {
+TEST(Http, UnreadAnswersHoldBoundedMemory) {
   ServerOptions options;
   options.limits.held_bytes = 100'000;
   const TestServer server(options);
@@ -295,7 +295,7 @@ TEST(Http, AnswersThatNobodyTakesHoldBoundedMemory) {
   {
     Client slow(server.port(), 4'096);
     slow.send("GET " + motion + " HTTP/1.1\r\nHost: localhost\r\n\r\n");
-    EXPECT_THAT(slow.read_until("\r\n"), HasSubstr("200 OK")) << "alone it may be as long as it is";
+    EXPECT_THAT(slow.read_until("\r\n"), HasSubstr("200 OK")) << "a single answer may have any length";
     const Answer refused = get(server.port(), motion);
     EXPECT_EQ(refused.status, 503);
     EXPECT_THAT(refused.body, HasSubstr("\"busy\""));
@@ -319,7 +319,7 @@ TEST(Http, BodiesThatDoNotEndHoldBoundedMemory) {
   expect_soon(server.port(), "/api/databases/demo", 200);
 }
 
-TEST(Http, ABodyThatStopsComingIsNotWaitedForForever) {
+TEST(Http, ABodyThatStopsIsNotAwaitedForever) {
   ServerOptions options;
   options.limits.body_time = 300ms;
   const TestServer server(options);

@@ -12,13 +12,13 @@ namespace signweave::server {
 
 using nlohmann::json;
 
-/// Its parts are shared with whoever is answering, so that nobody waits while they are copied.
+/// Its parts are shared with threads that are answering, so that copying them needs no lock.
 struct Jobs::Result {
-  std::shared_ptr<const json> told;
+  std::shared_ptr<const json> reported;
   std::map<std::string, std::vector<std::shared_ptr<const json>>> lists;
 
   json whole(std::size_t from) const {
-    json all = *told;
+    json all = *reported;
     for (const auto& [name, parts] : lists) {
       json& list = all[name] = json::array();
       for (std::size_t i = name == "recordings" ? from : 0; i < parts.size(); ++i) list.push_back(*parts[i]);
@@ -48,13 +48,13 @@ class Jobs::Context : public JobContext {
   void advance(double fraction) override {
     job_.fraction.store(fraction, std::memory_order_relaxed);
     if (job_.cancelled.load(std::memory_order_relaxed)) {
-      throw Error(ErrorCode::cancelled, "the job was cancelled; what was done until then stays");
+      throw Error(ErrorCode::cancelled, "the job was cancelled; what was done before is preserved");
     }
   }
-  void tell(json result) override {
-    auto told = std::make_shared<const json>(std::move(result));
+  void report(json result) override {
+    auto reported = std::make_shared<const json>(std::move(result));
     const std::lock_guard lock(jobs_.mutex_);
-    job_.result = {std::move(told), {}};
+    job_.result = {std::move(reported), {}};
   }
   void add(const std::string& list, json one) override {
     auto part = std::make_shared<const json>(std::move(one));
@@ -88,12 +88,13 @@ std::string Jobs::start(JobKind kind, std::string database, Work work) {
   const std::lock_guard lock(mutex_);
   const auto waiting = std::ranges::count_if(jobs_, [](const auto& job) { return !job->over(); });
   if (static_cast<std::size_t>(waiting) >= kMostWaiting) {
-    throw Error(ErrorCode::conflict, fmt::format("{} jobs are waiting already; try again when one is over", waiting));
+    throw Error(ErrorCode::conflict, fmt::format("{} jobs are waiting already; try again when one has ended", waiting));
   }
   for (const std::shared_ptr<Job>& job : jobs_) {
     if (!kind.alone || job->over() || job->kind.name != kind.name) continue;
     throw Error(ErrorCode::conflict,
-                fmt::format("job {} is such a one, and there is one at a time; try again when it is over", job->id));
+                fmt::format("job {} is of the same kind, and only one may run at a time; try again when it has ended",
+                            job->id));
   }
   auto job = std::make_shared<Job>();
   job->id = std::to_string(next_++);
@@ -114,7 +115,7 @@ std::shared_ptr<Jobs::Job> Jobs::at(const std::string& id) const {
   for (const std::shared_ptr<Job>& job : jobs_) {
     if (job->id == id) return job;
   }
-  throw Error(ErrorCode::not_found, fmt::format("no job '{}'; the last {} are kept", printable(id), kMostKept));
+  throw Error(ErrorCode::not_found, fmt::format("no job '{}'; only the last {} are kept", printable(id), kMostKept));
 }
 
 json Jobs::json_of(const Job& job) {
@@ -137,7 +138,7 @@ json Jobs::describe(const std::string& id, std::size_t from) const {
     one = json_of(*job);
     result = job->result;
   }
-  if (result.told) one["result"] = result.whole(from);
+  if (result.reported) one["result"] = result.whole(from);
   return one;
 }
 
@@ -150,7 +151,7 @@ json Jobs::describe_all() const {
 
 void Jobs::cancel(const std::string& id) {
   const std::lock_guard lock(mutex_);
-  at(id)->cancelled = true;  // one that waits begins all the same, and is stopped at its first step
+  at(id)->cancelled = true;  // a waiting job still begins, and is stopped at its first step
 }
 
 std::optional<std::string> Jobs::changing(const std::string& database) const {

@@ -17,57 +17,59 @@
 
 namespace signweave::server {
 
-/// What a job may call while it works; belongs to its thread.
+/// The callbacks of a job while it works; belongs to the job's thread.
 class JobContext {
  public:
   virtual ~JobContext() = default;
-  /// The part that is done, in [0, 1]. Throws Error{cancelled} where the job was cancelled.
+  /// Reports the finished fraction, in [0, 1]. Throws Error{cancelled} if the job was cancelled.
   virtual void advance(double fraction) = 0;
-  /// What is known of the result so far: told with the job while it runs, and kept where it fails or is cancelled.
-  virtual void tell(nlohmann::json result) = 0;
-  /// One more of a list of what was told. Those before it are not touched, so a long list costs no more than its
-  /// length.
+  /// Reports what is known of the result so far: shown with the job while it runs, and kept if it fails or is
+  /// cancelled.
+  virtual void report(nlohmann::json result) = 0;
+  /// Appends an item to a list of the reported result. Earlier items are not touched, so a long list costs no more than
+  /// its length.
   virtual void add(const std::string& list, nlohmann::json one) = 0;
 };
 
-/// What a job is.
+/// The properties of a job.
 struct JobKind {
   std::string name;
-  bool changes = true;  ///< the database: what else changes it has to wait
-  bool alone = false;   ///< there is one of them at a time, over all databases
+  bool changes = true;  ///< changes the database: other changes have to wait
+  bool alone = false;   ///< only one at a time, over all databases
 };
 
-/// Work that is not done when its request is answered: imports, relayouts, evaluations. One after the other, on a
-/// thread of their own. Threads may share it.
+/// Work that outlives its request: imports, relayouts, evaluations. Jobs run one after another on their own thread.
+/// Thread-safe.
 class Jobs {
  public:
-  /// Returns the result; null where it is what was told.
+  /// Returns the result; null: the result is what was reported.
   using Work = std::function<nlohmann::json(JobContext&)>;
 
-  /// `redact` takes what is nobody's business, such as folders, out of a text. `tidy` is called now and then when there
-  /// is nothing to do.
+  /// `redact` removes private details such as folders from a text. `tidy` is called from time to time when there is no
+  /// work.
   Jobs(std::function<std::string(std::string)> redact, std::function<void()> tidy);
-  /// Cancels what runs and what waits, and waits for the thread.
+  /// Cancels the running and the waiting jobs, and waits for the thread.
   ~Jobs();
   Jobs(const Jobs&) = delete;
   Jobs& operator=(const Jobs&) = delete;
 
-  /// Starts the thread: call it once, when what the callbacks use is there.
+  /// Starts the thread: to be called once, when everything that the callbacks use exists.
   void begin();
-  /// A new job's number. Throws Error{conflict} where kMostWaiting are waiting already, or one that has to be alone.
+  /// Returns the number of a new job. Throws Error{conflict} if kMostWaiting jobs have not ended yet, or one of the
+  /// same kind that has to be alone.
   std::string start(JobKind kind, std::string database, Work work);
-  /// As JSON: job, kind, database, state (waiting, running, done, failed, cancelled), fraction, result, error. Of the
-  /// result's list `recordings` only what is at `from` and after it. Throws Error{not_found}.
+  /// As JSON: job, kind, database, state (waiting, running, done, failed, cancelled), fraction, result, error. The
+  /// result's list `recordings` is returned from index `from` on. Throws Error{not_found}.
   nlohmann::json describe(const std::string& id, std::size_t from = 0) const;
   /// All jobs, without their results, which may be long.
   nlohmann::json describe_all() const;
-  /// Stops it as soon as may be; nothing where it is over. Throws Error{not_found}.
+  /// Cancels a job as soon as possible; does nothing if it has ended. Throws Error{not_found}.
   void cancel(const std::string& id);
-  /// The number of a job that waits or runs and changes this database.
+  /// The number of a waiting or running job that changes this database.
   std::optional<std::string> changing(const std::string& database) const;
 
   static constexpr std::size_t kMostWaiting = 16;
-  static constexpr std::size_t kMostKept = 100;  ///< that are over
+  static constexpr std::size_t kMostKept = 100;  ///< jobs that have ended
 
  private:
   enum class State { waiting, running, done, failed, cancelled };

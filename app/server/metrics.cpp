@@ -21,22 +21,22 @@ struct Total {
   Counter Metrics::*counter;
 };
 constexpr Total kTotals[] = {
-    {"signweave_connections", "gauge", "Connections that are open.", &Metrics::connections},
+    {"signweave_connections", "gauge", "Open connections.", &Metrics::connections},
     {"signweave_connections_total", "counter", "Connections accepted.", &Metrics::accepted},
-    {"signweave_refused_total", "counter", "Connections and requests refused at a limit.", &Metrics::refused},
-    {"signweave_timeouts_total", "counter", "Connections closed for their silence.", &Metrics::timeouts},
-    {"signweave_streams", "gauge", "Streams that are open.", &Metrics::streams},
+    {"signweave_refused_total", "counter", "Connections and requests refused because of a limit.", &Metrics::refused},
+    {"signweave_timeouts_total", "counter", "Connections closed because of a timeout.", &Metrics::timeouts},
+    {"signweave_streams", "gauge", "Open streams.", &Metrics::streams},
     {"signweave_controls_total", "counter", "Control messages of streams.", &Metrics::controls},
-    {"signweave_control_errors_total", "counter", "Control messages answered by an error.", &Metrics::control_errors},
+    {"signweave_control_errors_total", "counter", "Control messages answered with an error.", &Metrics::control_errors},
     {"signweave_frames_total", "counter", "Frames sent.", &Metrics::frames},
-    {"signweave_frames_left_out_total", "counter", "Frames left out for slow clients.", &Metrics::left_out},
+    {"signweave_frames_left_out_total", "counter", "Frames dropped for slow clients.", &Metrics::left_out},
     {"signweave_messages_total", "counter", "Messages of frames sent.", &Metrics::messages},
-    {"signweave_message_bytes_total", "counter", "Bytes of these.", &Metrics::bytes},
+    {"signweave_message_bytes_total", "counter", "Bytes of messages of frames.", &Metrics::bytes},
     {"signweave_messages_by_io_uring_total", "counter",
-     "Messages of streams sent with others by one call of the kernel.", &Metrics::by_one_call},
+     "Messages of streams sent together with others by one system call.", &Metrics::by_one_call},
     {"signweave_ticks_total", "counter", "Paced messages that were due.", &Metrics::ticks},
-    {"signweave_ticks_late_total", "counter", "Paced messages sent later than half a frame.", &Metrics::late},
-    {"signweave_starved_total", "counter", "Times that a paced stream had no frame made in time.", &Metrics::starved},
+    {"signweave_ticks_late_total", "counter", "Paced messages sent more than half a frame late.", &Metrics::late},
+    {"signweave_starved_total", "counter", "Times that a paced stream had no frame ready in time.", &Metrics::starved},
 };
 
 template <typename Of>
@@ -50,7 +50,7 @@ void head(std::string& out, std::string_view name, std::string_view type, std::s
   out += fmt::format("# HELP {0} {2}\n# TYPE {0} {1}\n", name, type, help);
 }
 
-/// The lines of one histogram; `label` is "class=\"api\"," or nothing.
+/// The lines of one histogram; `label` is "class=\"api\"," or empty.
 template <typename Of>
 void histogram(std::string& out, std::span<const Metrics* const> threads, std::string_view name, std::string_view label,
                const Of& of) {
@@ -111,10 +111,10 @@ std::string metrics_text(std::span<const Metrics* const> threads, const ServerSt
     out +=
         fmt::format("{} {}\n", total.name, sum(threads, [&](const Metrics& m) { return (m.*total.counter).value(); }));
   }
-  head(out, "signweave_lateness_seconds", "histogram", "How long after their time paced messages were sent.");
+  head(out, "signweave_lateness_seconds", "histogram", "Delay with which paced messages were sent.");
   histogram(
       out, threads, "signweave_lateness_seconds", "", [](const Metrics& m) -> auto& { return m.lateness; });
-  head(out, "signweave_prepare_seconds", "histogram", "Making frames ahead.");
+  head(out, "signweave_prepare_seconds", "histogram", "Computing frames ahead.");
   histogram(
       out, threads, "signweave_prepare_seconds", "", [](const Metrics& m) -> auto& { return m.prepare; });
   head(out, "signweave_first_frame_seconds", "histogram", "From glosses received to the first frame sent.");
@@ -125,7 +125,7 @@ std::string metrics_text(std::span<const Metrics* const> threads, const ServerSt
     head(out, name, "gauge", help);
     out += fmt::format("{} {}\n", name, value);
   };
-  gauge("signweave_calls", "Calls being answered or waiting for it.", state.calls);
+  gauge("signweave_calls", "Calls being answered or waiting.", state.calls);
   gauge("signweave_databases", "Databases served.", state.databases);
   gauge("signweave_draining", "1 while the server is being stopped.", state.draining ? 1 : 0);
   gauge("process_resident_memory_bytes", "Resident memory of the process.", resident_bytes());

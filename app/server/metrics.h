@@ -10,11 +10,11 @@
 
 namespace signweave::server {
 
-/// A number that one thread counts up and any thread reads.
+/// A counter that one thread increments and any thread reads.
 class Counter {
  public:
   void add(std::uint64_t n = 1) noexcept {
-    // One writer: no read-modify-write needed, which would cost the frame path a locked instruction.
+    // One writer: no read-modify-write is needed, which would cost the frame path a locked instruction.
     value_.store(value_.load(std::memory_order_relaxed) + n, std::memory_order_relaxed);
   }
   void subtract(std::uint64_t n = 1) noexcept {
@@ -26,7 +26,7 @@ class Counter {
   std::atomic<std::uint64_t> value_ = 0;
 };
 
-/// How many durations lay below each bound. One thread observes, any thread reads.
+/// Histogram of durations: counts below each bound. One thread observes, any thread reads.
 class Histogram {
  public:
   /// Upper bounds of the buckets, seconds.
@@ -41,43 +41,44 @@ class Histogram {
   Counter nanoseconds_;
 };
 
-/// What a request was for.
+/// The class of a request.
 enum class RouteClass { api, file, health, metrics, stream, refused };
 constexpr std::size_t kRouteClasses = 6;
 
-/// What one I/O thread counts.
-/// More than fifteen members: a number of /metrics each.
+/// Counters of one I/O thread.
+/// More than fifteen members: one per metric of /metrics.
 struct alignas(64) Metrics {
   std::array<std::array<Counter, 6>, kRouteClasses> requests;  ///< [class][status / 100]
-  std::array<Histogram, kRouteClasses> latency;  ///< [class], first byte of the header to last of the answer
-  Counter connections;                           ///< open now
-  Counter accepted;                              ///< ever
-  Counter refused;                               ///< at a limit
-  Counter timeouts;                              ///< closed for their silence
-  Counter streams;                               ///< open now
-  Counter controls;                              ///< control messages taken
-  Counter control_errors;                        ///< answered by an error
-  Counter frames;                                ///< sent
-  Counter left_out;                              ///< frames
-  Counter messages;                              ///< of frames, sent
-  Counter bytes;                                 ///< of these
-  Counter by_one_call;                           ///< of the messages, sent with others by one call of the kernel
-  Counter ticks;                                 ///< paced messages that were due
-  Counter late;                                  ///< of these, by more than half a frame
-  Counter starved;                               ///< times that a paced stream had no frame made in time
-  Histogram lateness;                            ///< of paced messages
-  Histogram prepare;                             ///< of making frames ahead
-  Histogram first_frame;                         ///< from the control message that asks to the first frame
+  std::array<Histogram, kRouteClasses>
+      latency;             ///< [class], from the first byte of the header to the last of the answer
+  Counter connections;     ///< open now
+  Counter accepted;        ///< since the start
+  Counter refused;         ///< because of a limit
+  Counter timeouts;        ///< closed because the client was silent
+  Counter streams;         ///< open now
+  Counter controls;        ///< control messages received
+  Counter control_errors;  ///< answered with an error
+  Counter frames;          ///< sent
+  Counter left_out;        ///< frames dropped
+  Counter messages;        ///< messages of frames sent
+  Counter bytes;           ///< in these messages
+  Counter by_one_call;     ///< messages sent together with others by one system call
+  Counter ticks;           ///< paced messages that were due
+  Counter late;            ///< of these, late by more than half a frame
+  Counter starved;         ///< times that a paced stream had no frame ready in time
+  Histogram lateness;      ///< of paced messages
+  Histogram prepare;       ///< of computing frames ahead
+  Histogram first_frame;   ///< from the requesting control message to the first frame
 };
 
-/// What the server as a whole knows.
+/// Values of the server as a whole.
 struct ServerState {
   bool draining = false;
-  std::size_t calls = 0;      ///< being answered or waiting for it
+  std::size_t calls = 0;      ///< being answered or waiting to be
   std::size_t databases = 0;  ///< served
 };
 
-/// Prometheus' text form, version 0.0.4, of all threads together and of the process.
+/// Prometheus' text format, version 0.0.4, for all threads together and for the process.
 std::string metrics_text(std::span<const Metrics* const> threads, const ServerState& state);
 
 }  // namespace signweave::server

@@ -4,10 +4,10 @@
 
 namespace signweave::server {
 
-/// The schemas of every answer, by the names that the table of routes uses.
+/// The schemas of all answers, by the names that the table of routes uses.
 nlohmann::ordered_json answer_schemas();
 
-/// The OpenAPI 3.1 document, made from the table of routes.
+/// The OpenAPI 3.1 document, generated from the table of routes.
 nlohmann::ordered_json openapi_document();
 
 }  // namespace signweave::server

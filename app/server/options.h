@@ -9,14 +9,14 @@
 
 namespace signweave::server {
 
-/// What the server grants one client, one address and all together. What goes beyond is refused with a clear answer.
-/// More than fifteen members: a limit each.
+/// Limits per client, per address and in total. A request beyond them is refused with a clear answer.
+/// More than fifteen members: one per limit.
 struct ServerLimits {
   // Connections.
   std::size_t connections = 4'096;
-  std::size_t connections_per_address = 0;  ///< 0: as many as there are
-  double requests_per_second = 0;           ///< of one address, in the mean; 0: as many as come
-  double request_burst = 200;               ///< of one address, at once
+  std::size_t connections_per_address = 0;  ///< 0: no limit
+  double requests_per_second = 0;           ///< per address, on average; 0: no limit
+  double request_burst = 200;               ///< per address, at once
 
   // Requests.
   std::uint32_t header_bytes = 16 * 1024;
@@ -24,36 +24,37 @@ struct ServerLimits {
   std::uint64_t body_bytes = 1 << 20;    ///< of a body that is held in memory
   std::uint64_t score_bytes = 32 << 20;  ///< of a score, which is held in memory as well; a sign takes about 2,000
   std::uint64_t file_bytes = 2'000'000'000;
-  std::uint64_t held_bytes = 512 << 20;  ///< of all bodies and answers that are held in memory; an answer may go alone
-  std::size_t calls = 64;                ///< being answered or waiting for it
+  std::uint64_t held_bytes = 512 << 20;  ///< of all bodies and answers held in memory; one alone may exceed it
+  std::size_t calls = 64;                ///< being answered or waiting to be
   std::chrono::milliseconds header_time{
-      10'000};  ///< from the connection, or the request's first byte, to the last of its header
-  std::chrono::milliseconds body_time{30'000};   ///< without a byte of a body, or without one taken of an answer
+      10'000};  ///< from the connection, or the request's first byte, to the last byte of its header
+  std::chrono::milliseconds body_time{30'000};   ///< without receiving a byte of a body, or sending one of an answer
   std::chrono::milliseconds keep_alive{60'000};  ///< between requests
 
   // Streams.
   std::size_t streams = 2'000;
-  std::size_t control_bytes = 64 * 1024;        ///< of one control message
-  double control_rate = 200;                    ///< control messages a second, in the mean; more wait to be read
-  std::size_t unread_bytes = 256 * 1024;        ///< of answers that a client does not read, before it is closed
-  std::size_t message_bytes = 256 * 1024;       ///< of one message of frames: a batch is cut to it
-  int send_buffer = 64 * 1024;                  ///< SO_SNDBUF; the kernel doubles it
-  std::chrono::milliseconds silence{60'000};    ///< of a stream's client, pongs counted, before it is closed
-  std::chrono::milliseconds close_time{5'000};  ///< for a stream that is being closed, until its client has taken all
+  std::size_t control_bytes = 64 * 1024;      ///< of one control message
+  double control_rate = 200;                  ///< control messages per second, on average; further ones wait to be read
+  std::size_t unread_bytes = 256 * 1024;      ///< of answers that a client does not read, before it is closed
+  std::size_t message_bytes = 256 * 1024;     ///< of one message of frames: batches are shortened to fit
+  int send_buffer = 64 * 1024;                ///< SO_SNDBUF; the kernel doubles it
+  std::chrono::milliseconds silence{60'000};  ///< of a stream's client, including pongs, before it is closed
+  std::chrono::milliseconds close_time{
+      5'000};  ///< for a stream that is being closed, until its client has received everything
 
-  std::chrono::milliseconds drain{10'000};  ///< for what runs when the server is stopped
+  std::chrono::milliseconds drain{10'000};  ///< for running work when the server is stopped
 };
 
 struct ServerOptions {
   std::string address = "127.0.0.1";
-  std::uint16_t port = 8080;                 ///< 0: one that is free
+  std::uint16_t port = 8080;                 ///< 0: any free port
   std::size_t threads = 2;                   ///< that serve connections and streams
   std::size_t workers = 2;                   ///< that answer calls
-  std::filesystem::path files;               ///< static files; empty: a small page instead
-  std::filesystem::path scratch;             ///< bodies that belong in files; must exist
-  std::string token;                         ///< empty: none is asked for
-  std::vector<std::string> allowed_origins;  ///< beside the server's own: "https://signs.example.org"
-  bool io_uring = true;                      ///< streams send by it what is due at one tick, where the kernel lets them
+  std::filesystem::path files;               ///< static files; empty: a small built-in page
+  std::filesystem::path scratch;             ///< for request bodies stored in files; must exist
+  std::string token;                         ///< empty: not required
+  std::vector<std::string> allowed_origins;  ///< in addition to the server's own: "https://signs.example.org"
+  bool io_uring = true;  ///< streams use it to send everything due at one tick, if the kernel allows it
   ServerLimits limits;
 };
 

@@ -10,7 +10,7 @@ namespace {
 
 using Ticks = std::chrono::duration<std::int64_t, std::ratio<2, 1'000>>;
 constexpr Ticks kTick{1};
-/// After so long the sockets are looked at, whatever work is left.
+/// After this time the sockets are polled, whatever work is left.
 constexpr std::chrono::milliseconds kTurn{2};
 
 std::int64_t tick_at(Clock::time_point at) {
@@ -28,7 +28,7 @@ void Pacer::place(Paced& paced, Clock::time_point at) noexcept {
   paced.waking_.unlink();
   paced.at_ = at;
   if (at == Paced::kNever) return;
-  // The slot before next_ may be the one that is being gone through: nobody is put there.
+  // The slot before next_ may be the one being processed, so nothing is added to it.
   const std::int64_t tick = std::clamp(tick_at(at), next_, next_ + kSlots - 2);
   slots_[static_cast<std::size_t>(tick % kSlots)].push_back(paced);
 }
@@ -51,18 +51,18 @@ void Pacer::forget(Paced& paced) noexcept {
 void Pacer::send_due() noexcept {
   const Clock::time_point now = Clock::now();
   const std::int64_t last = last_tick(now);
-  next_ = std::max(next_, last - kSlots + 1);  // the wheel once round is all there is
+  next_ = std::max(next_, last - kSlots + 1);  // there is nothing more than one turn of the wheel
   sends_.collect();
   while (next_ <= last) {
     auto& slot = slots_[static_cast<std::size_t>(next_ % kSlots)];
-    ++next_;  // nobody is put into this slot now
+    ++next_;  // nothing is added to this slot from now on
     send_slot(slot, now);
   }
   sends_.finish();
 }
 
-/// What hundreds of streams have in memory is far away when their turn comes: it is brought near, a step at a time,
-/// while those before them are sent.
+/// The data of hundreds of streams is no longer in the cache when their turn comes: it is prefetched step by step while
+/// earlier streams are sent.
 void Pacer::send_slot(List<&Paced::waking_>& slot, Clock::time_point now) noexcept {
   constexpr std::size_t kAhead = 3;
   std::array<const Paced*, kAhead> coming{};  // the next, the one after it, and the third
@@ -113,7 +113,7 @@ void Pacer::arm() {
   armed_ = at;
   timer_.expires_at(at);
   timer_.async_wait([this](boost::system::error_code error) {
-    if (error) return;  // armed anew
+    if (error) return;  // armed again
     armed_ = Paced::kNever;
     if (!turning_) turn();
   });

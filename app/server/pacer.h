@@ -14,23 +14,24 @@ namespace signweave::server {
 
 using Clock = std::chrono::steady_clock;
 
-/// What a pacer wakes. Belongs to the pacer's thread.
+/// An object woken by a pacer. Belongs to the pacer's thread.
 class Paced {
  public:
   static constexpr Clock::time_point kNever = Clock::time_point::max();
-  /// What a tick needs of the object itself should lie at its begin, within so many bytes.
+  /// The members that a tick needs should be at the object's beginning, within this many bytes.
   static constexpr std::size_t kNearBytes = 192;
 
   Paced(const Paced&) = delete;
   virtual ~Paced() = default;
 
-  /// Sends what is due at `now`; tells when to be woken next. The frame path: allocates nothing, locks nothing.
+  /// Sends what is due at `now`; returns when to be woken next. The frame path: allocates nothing, locks nothing.
   virtual Clock::time_point tick(Clock::time_point now) noexcept = 0;
-  /// Brings near what tick() will read and write: `near` what its own members point to, then `frame` what that points
-  /// to.
+  /// Prefetches what tick() will read and write: `near` what the object's members point to, then `frame` what that
+  /// points to.
   enum class Step { near, frame };
   virtual void prefetch(Step) const noexcept {}
-  /// A piece of work that may wait for the ticks that are due, such as making frames ahead. True: there is more.
+  /// A piece of work that can wait until due ticks are done, such as computing frames ahead. Returns true if there is
+  /// more.
   virtual bool work() = 0;
 
  protected:
@@ -39,21 +40,21 @@ class Paced {
  private:
   friend class Pacer;
   using Hook = boost::intrusive::list_member_hook<boost::intrusive::link_mode<boost::intrusive::auto_unlink>>;
-  Hook waking_;   // among those of its tick
-  Hook working_;  // among those that have work to do
+  Hook waking_;   // in the list of its tick
+  Hook working_;  // in the list of objects that have work to do
   Clock::time_point at_ = kNever;
 };
 
-/// One timer for all paced streams of a thread. It wakes at ticks, every 2 ms, so that streams that are due within one
-/// share a wake, and what they send goes out in one go; then come pieces of work, one at a time, and what falls due
+/// One timer for all paced streams of a thread. It wakes at ticks, every 2 ms, so that streams due within one tick
+/// share a wake-up and their messages are sent together; then pieces of work run, one at a time, and what falls due
 /// between two of them goes first.
 class Pacer {
  public:
   Pacer(boost::asio::io_context& io, SendBatch& sends);
 
-  /// Wakes it then (at once where that is past), and no longer when it was to be woken before; kNever: not at all.
+  /// Wakes the object at `at` (immediately if that is past), replacing any earlier wake-up; kNever: not at all.
   void wake_at(Paced& paced, Clock::time_point at);
-  /// Has it do a piece of work soon.
+  /// Schedules a piece of work of the object.
   void want_work(Paced& paced);
   void forget(Paced& paced) noexcept;
 
@@ -71,12 +72,12 @@ class Pacer {
   boost::asio::steady_timer timer_;
   SendBatch& sends_;
   Clock::time_point armed_ = Paced::kNever;
-  bool turning_ = false;  // within turn(), or it is posted
-  /// A wheel: who is woken at tick t of the clock is in slot t % kSlots; who is woken later than the wheel reaches is
-  /// in its last slot, and put further on when that comes.
+  bool turning_ = false;  // turn() is running or posted
+  /// A timing wheel: an object due at tick t of the clock is in slot t % kSlots; an object due later than the wheel
+  /// reaches is in the last slot, and is moved on when that slot comes.
   static constexpr std::int64_t kSlots = 128;
   std::array<List<&Paced::waking_>, kSlots> slots_;
-  std::int64_t next_ = 0;  // the first tick that was not gone through
+  std::int64_t next_ = 0;  // the first tick not processed yet
   List<&Paced::working_> working_;
 };
 

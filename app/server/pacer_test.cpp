@@ -37,7 +37,7 @@ struct PacerTest : ::testing::Test {
 
 TEST_F(PacerTest, WakesEachAtItsTimeAndOnce) {
   std::vector<Woken> streams(5);
-  // More than the wheel reaches, just as far, and nearer; one that is due already.
+  // Beyond the range of the wheel, at its end, and nearer; one that is already due.
   const std::vector<std::chrono::microseconds> after = {700ms, 255ms, 254ms, 3'300us, -5ms};
   for (std::size_t i = 0; i < streams.size(); ++i) pacer.wake_at(streams[i], begin + after[i]);
   io.run();
@@ -60,7 +60,7 @@ TEST_F(PacerTest, KeepsARateAlsoAfterALongPause) {
   io.run();
   ASSERT_EQ(stream.ticks.size(), 6u);
   for (std::size_t i = 0; i < 6; ++i) EXPECT_GE(stream.ticks[i], begin + times(i, 16'667us));
-  // Nobody is woken for longer than the wheel is round; then it goes on, and no earlier than it should.
+  // Nothing is woken for longer than a turn of the wheel; then it continues, and not too early.
   const Clock::time_point later = Clock::now() + 600ms;
   stream.on_tick = nullptr;
   pacer.wake_at(stream, later);
@@ -76,7 +76,7 @@ TEST_F(PacerTest, KeepsARateAlsoAfterALongPause) {
   EXPECT_EQ(stream.ticks.size(), 8u);
 }
 
-TEST_F(PacerTest, WhoIsDueAtOneTickSendsWithTheOthers) {
+TEST_F(PacerTest, StreamsDueAtOneTickSendTogether) {
   std::vector<Woken> streams(3);
   const Clock::time_point due = std::chrono::ceil<std::chrono::milliseconds>(begin) + 5ms;
   int collecting = 0;
@@ -89,19 +89,19 @@ TEST_F(PacerTest, WhoIsDueAtOneTickSendsWithTheOthers) {
   }
   io.run();
   EXPECT_EQ(collecting, 3);
-  EXPECT_FALSE(sends.collecting()) << "what is sent between ticks goes out at once";
+  EXPECT_FALSE(sends.collecting()) << "between ticks messages are sent at once";
   EXPECT_EQ(streams[0].ticks, streams[1].ticks);
   EXPECT_EQ(streams[0].ticks, streams[2].ticks);
 }
 
-TEST_F(PacerTest, IsToldAnotherTimeOrToForget) {
+TEST_F(PacerTest, ATimeIsChangedOrForgotten) {
   Woken sooner, never, forgotten;
   for (Woken* one : {&sooner, &never, &forgotten}) pacer.wake_at(*one, begin + 10s);
   pacer.wake_at(sooner, begin + 1ms);
   pacer.wake_at(never, Paced::kNever);
   pacer.want_work(forgotten);
   forgotten.on_work = [] {
-    ADD_FAILURE() << "it was to be forgotten";
+    ADD_FAILURE() << "it should have been forgotten";
     return false;
   };
   pacer.forget(forgotten);
@@ -111,7 +111,7 @@ TEST_F(PacerTest, IsToldAnotherTimeOrToForget) {
   EXPECT_TRUE(forgotten.ticks.empty());
 }
 
-TEST_F(PacerTest, WhatFallsDueGoesBeforeMoreWork) {
+TEST_F(PacerTest, DueStreamsGoBeforeMoreWork) {
   Woken paced, working;
   paced.on_tick = [&](Clock::time_point) {
     return paced.ticks.size() < 5 ? begin + times(paced.ticks.size(), 2ms) : Paced::kNever;
@@ -130,10 +130,10 @@ TEST_F(PacerTest, WhatFallsDueGoesBeforeMoreWork) {
   io.run();
   EXPECT_EQ(pieces, 8);
   EXPECT_EQ(paced.ticks.size(), 5u);
-  EXPECT_LT(paced.ticks[1], work_end) << "it does not wait for all of the work";
+  EXPECT_LT(paced.ticks[1], work_end) << "it must not wait for all of the work";
 }
 
-TEST_F(PacerTest, MayGoWhileOthersAreWoken) {
+TEST_F(PacerTest, AStreamMayBeDestroyedBeforeItsTick) {
   auto gone = std::make_unique<Woken>();
   Woken stream;
   pacer.wake_at(stream, begin + 2ms);

@@ -1,4 +1,4 @@
-// What an import would store, shown before it is stored.
+// A preview of what an import would store.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -14,7 +14,7 @@ using nlohmann::json;
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
-/// The demo signer at a rate.
+/// A recording of the demo signer at a frame rate.
 std::string demo_bvh(FrameRate rate) {
   const demo::SyntheticRecording made = demo::make_recording(demo::corpus_scripts(1).front(), rate, 7);
   return bvh::write_text(made.motion, bvh::default_layout(made.motion.skeleton()));
@@ -28,7 +28,7 @@ ApiResponse preview_of(TestApi& api, const std::string& upload, const json& para
   return api.send("POST", at({"uploads", upload, "preview"}), parameters);
 }
 
-TEST(Preview, IsWhatIsStored) {
+TEST(Preview, EqualsWhatIsStored) {
   TestApi api(true);
   int number = 0;
   for (const json& parameters :
@@ -63,7 +63,7 @@ TEST(Preview, IsWhatIsStored) {
   }
 }
 
-TEST(Preview, TellsWhatItIsOf) {
+TEST(Preview, DescribesItsSource) {
   TestApi api(true);
   const std::string upload = upload_of(api, {{"soir.bvh", slow_bvh()}});
   const Frames shown = frames_in(preview_of(api, upload, {{"file", "soir.bvh"}}));
@@ -80,7 +80,7 @@ TEST(Preview, TellsWhatItIsOf) {
   EXPECT_EQ(shown.head["rig"]["parts"]["head"]["joint"], "Head");
 }
 
-TEST(Preview, TellsWhatAFileSaysOfItself) {
+TEST(Preview, ContainsTheDeclarationsOfAFile) {
   TestApi api(true);
   const std::string glb =
       api.get(at({"recordings", "villes", "motion"}), {{"format", "glb"}, {"from", "0"}, {"to", "3000"}}).body;
@@ -98,13 +98,13 @@ TEST(Preview, HasAFewHundredFramesAtMost) {
   EXPECT_EQ(shown.poses.size(), 600u);
   const json& piece = shown.head["report"]["piece"];
   EXPECT_EQ(piece["step"], 4);
-  EXPECT_EQ(piece["end_frame"], piece["of_frames"]) << "it begins so that there are as many seconds";
+  EXPECT_EQ(piece["end_frame"], piece["of_frames"]) << "it begins early enough to last as long";
   EXPECT_EQ(fault_of(preview_of(api, upload, {{"file", "fast.bvh"}, {"seconds", 3600}})),
             "400 bad_input: seconds: expected a number from 0.1 to 10, not 3600");
   EXPECT_THAT(fault_of(preview_of(api, upload, {{"file", "fast.bvh"}, {"at", -1}})), StartsWith("400 bad_input: at: "));
 }
 
-TEST(Preview, GoesOnBesideAJobOfTheSameUpload) {
+TEST(Preview, WorksDuringAJobOfTheSameUpload) {
   TestApi api(true);
   const std::string upload = upload_of(api, {{"soir.bvh", slow_bvh()}});
   const ApiResponse inspection = api.send("POST", at({"uploads", upload, "inspect"}));
@@ -112,7 +112,7 @@ TEST(Preview, GoesOnBesideAJobOfTheSameUpload) {
   EXPECT_EQ(wait_for(api, json_in(inspection)["job"])["state"], "done");
 }
 
-TEST(Preview, OfAFileThatIsReplacedMeanwhileIsOfWhatItWas) {
+TEST(Preview, OfAFileReplacedMeanwhileShowsTheOldOne) {
   TestApi api(true);
   const std::string upload = upload_of(api, {{"soir.bvh", slow_bvh()}});
   std::ifstream open_file(api.scratch() / "uploads" / upload / "soir.bvh", std::ios::binary);
@@ -121,14 +121,14 @@ TEST(Preview, OfAFileThatIsReplacedMeanwhileIsOfWhatItWas) {
   EXPECT_EQ(read, slow_bvh());
 }
 
-TEST(Preview, SaysInOneLineWhatIsWrong) {
+TEST(Preview, ReportsErrorsOnOneLine) {
   TestApi api(true);
   const std::string upload =
       upload_of(api, {{"soir.bvh", slow_bvh()}, {"wrong.bvh", "HIERARCHY\nROOT"}, {"soir.eaf", "<x/>"}});
   const auto fault = [&](const json& parameters) { return fault_of(preview_of(api, upload, parameters)); };
   EXPECT_THAT(fault(json::object()), StartsWith("400 bad_input: file: "));
   EXPECT_EQ(fault({{"file", "other.bvh"}}), "404 not_found: file: the upload has no file 'other.bvh'; put it first");
-  EXPECT_THAT(fault({{"file", "../soir.bvh"}}), StartsWith("400 bad_input: '../soir.bvh' is no plain file name"));
+  EXPECT_THAT(fault({{"file", "../soir.bvh"}}), StartsWith("400 bad_input: '../soir.bvh' is not a plain file name"));
   EXPECT_THAT(fault({{"file", "wrong.bvh"}}), StartsWith("400 bad_input: wrong.bvh:2: "));
   EXPECT_THAT(fault({{"file", "soir.eaf"}}), StartsWith("422 unsupported: soir.eaf: "));
   EXPECT_THAT(fault({{"file", "soir.bvh"}, {"unit", "miles"}}), StartsWith("400 bad_input: unit: "));
@@ -137,12 +137,12 @@ TEST(Preview, SaysInOneLineWhatIsWrong) {
   EXPECT_THAT(fault_of(preview_of(api, "nowhere", {{"file", "soir.bvh"}})), StartsWith("404 not_found: no upload"));
 }
 
-TEST(Preview, NeedsLeaveToChangeTheDatabase) {
+TEST(Preview, RequiresAWritableDatabase) {
   TestApi api(false);
   EXPECT_THAT(fault_of(preview_of(api, "any", {{"file", "soir.bvh"}})), StartsWith("403 read_only: "));
 }
 
-TEST(Preview, IsGivenUpWhenItsTimeIsOver) {
+TEST(Preview, EndsWhenItsTimeIsOver) {
   TestApi api(true, {.sign_time = Milliseconds(0)});
   const std::string upload = upload_of(api, {{"soir.bvh", slow_bvh()}});
   EXPECT_EQ(fault_of(preview_of(api, upload, {{"file", "soir.bvh"}})),

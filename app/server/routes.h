@@ -17,28 +17,28 @@ namespace signweave::server {
 
 struct Route;
 
-/// A request on its way to its answer; belongs to one thread.
+/// A request being answered; belongs to one thread.
 struct Call {
   ApiState& state;
   const ApiRequest& request;
   const Route& route;
-  calls::Texts names;                                      ///< of the path: {"database": "demo"}
-  nlohmann::json declarations = nlohmann::json::object();  ///< of the recordings that the answer is made of
-  std::vector<Notice> notices;                             ///< what stopped nothing
+  calls::Texts names;                                      ///< in the path: {"database": "demo"}
+  nlohmann::json declarations = nlohmann::json::object();  ///< of the recordings that the answer is built from
+  std::vector<Notice> notices;                             ///< problems that stopped nothing
 
   ServedDatabase& database() const { return state.databases.at(names.at("database")); }
-  /// Collects notices and faults; progress ends the call when its time is over.
+  /// Collects notices and faults; its progress callback ends the call when the time limit is reached.
   calls::Listener listener();
-  /// Takes up what a recording says of itself.
+  /// Adds what a recording declares.
   void declare(const std::vector<std::pair<std::string, std::string>>& of);
   void declare_all(const Contents& contents);
 };
 
-/// Where a call's fields stand.
+/// Where a call's fields are.
 enum class Source { none, query, body };
 
-/// One call of the API. The table of them is the only place that knows paths: answering, the OpenAPI document and the
-/// test of docs/http.md go by it.
+/// One call of the API. The table of routes is the only place that knows paths: answering, the OpenAPI document and the
+/// test of docs/http.md all use it.
 struct Route {
   std::string_view method;
   std::string_view path;     ///< below /api/, names in braces
@@ -49,22 +49,22 @@ struct Route {
   calls::SchemaWriter (*parameters)() = nullptr;
   std::string_view answer = {};  ///< its schema in the document's components; empty: a file
   int status = 200;
-  bool may_be_file = false;                ///< beside the JSON answer
-  bool changes = false;                    ///< refused with 403 for a database that is served for reading only
+  bool may_be_file = false;                ///< in addition to the JSON answer
+  bool changes = false;                    ///< refused with 403 for a database that is served read-only
   bool takes_file = false;                 ///< the request's body is a file
-  void (*require)(const Call&) = nullptr;  ///< throws where no such body could make the request good
-  std::string_view media_type = {};        ///< of an answer that is a file, where no field tells
-  std::string_view takes = {};  ///< the request's body is a document of this schema, beside fields in the URL
+  void (*require)(const Call&) = nullptr;  ///< throws if no body could make such a request valid
+  std::string_view media_type = {};        ///< of an answer that is a file, if no field specifies it
+  std::string_view takes = {};  ///< the request's body is a document of this schema, in addition to fields in the URL
 };
 
 std::span<const Route> routes();
 
 /// The segments of a route's path: "databases", "{database}", ….
 std::vector<std::string_view> segments_of(std::string_view path);
-/// The names in the path where the route fits, none where it does not.
+/// The values of the names in the path if the route matches, otherwise nullopt.
 std::optional<calls::Texts> match(const Route& route, const std::vector<std::string>& path);
 
-/// The call's parameters from where the route says they stand. Throws Error{bad_input}, StatusError 415.
+/// Reads the call's parameters from where the route puts them. Throws Error{bad_input}, StatusError 415.
 template <class Parameters>
 Parameters read_parameters(const Call& call) {
   if (call.route.source == Source::query) {
@@ -73,14 +73,14 @@ Parameters read_parameters(const Call& call) {
   return calls::read_call<Parameters>(calls::parse_body(call.request.body), call.names);
 }
 
-/// A call's parameters, and in which format its answer is wanted: empty for the JSON report.
+/// A call's parameters, and the requested format of its answer: empty for the JSON report.
 template <class Parameters>
 struct WithFormat {
   Parameters call;
   std::string format;
 };
 
-/// Which formats an answer can have; specialised where there are some.
+/// The formats that an answer can have; specialised for calls that have several.
 template <class Parameters>
 struct Formats;
 
@@ -131,7 +131,7 @@ ApiResponse show_job(Call& call);
 ApiResponse cancel_job(Call& call);
 ApiResponse preview_upload(Call& call);  // handle_previews.cpp
 
-/// The fields of each call that has some, for the table and the document.
+/// The fields of each call that has any, for the table and the document.
 calls::SchemaWriter label_fields();
 calls::SchemaWriter query_fields();
 calls::SchemaWriter xpath_fields();

@@ -11,7 +11,7 @@ namespace {
 
 constexpr int kFlags = MSG_DONTWAIT | MSG_NOSIGNAL;
 
-/// Linux 5.6 knows how to send by io_uring; seccomp, or the system's settings, may forbid it all the same.
+/// Linux can send by io_uring since 5.6; seccomp or the system's settings may forbid it nevertheless.
 bool sends(io_uring& ring) noexcept {
   io_uring_probe* const probe = io_uring_get_probe_ring(&ring);
   if (probe == nullptr) return false;
@@ -35,10 +35,10 @@ void SendBatch::CloseRing::operator()(io_uring* ring) const noexcept {
 
 SendBatch::SendBatch(Counter& by_one_call) : by_one_call_(by_one_call) {}
 
-void SendBatch::use(Way way) {
+void SendBatch::use(Mode mode) {
   flush();
   ring_.reset();
-  if (way == Way::call_each) return;
+  if (mode == Mode::call_each) return;
   auto ring = std::make_unique<io_uring>();
   if (io_uring_queue_init(kMost, ring.get(), 0) != 0) return;
   ring_.reset(ring.release());
@@ -78,14 +78,15 @@ void SendBatch::flush() noexcept {
   for (std::size_t i = 0; i < count; ++i) messages_[i].sender->sent(messages_[i].result);
 }
 
-/// How many of the messages, from the first on, the kernel has taken by the ring. Where these are not all there is no
-/// ring any longer.
+/// Returns how many of the messages, from the first on, the kernel accepted through the ring. If these are not all, the
+/// ring is destroyed.
 std::size_t SendBatch::send_by_ring() noexcept {
   io_uring* const ring = ring_.get();
   for (std::size_t i = 0; i < count_; ++i) {
     Message& message = messages_[i];
-    io_uring_sqe* const entry = io_uring_get_sqe(ring);  // as many as there are messages, and none is left over
-    if (message.header.msg_iovlen == 1) {                // cheaper
+    io_uring_sqe* const entry =
+        io_uring_get_sqe(ring);  // the ring has as many entries as there are messages, and none is unsubmitted
+    if (message.header.msg_iovlen == 1) {  // cheaper
       io_uring_prep_send(entry, message.descriptor, message.parts[0].iov_base, message.parts[0].iov_len, kFlags);
     } else {
       io_uring_prep_sendmsg(entry, message.descriptor, &message.header, kFlags);
@@ -99,13 +100,13 @@ std::size_t SendBatch::send_by_ring() noexcept {
     if (n <= 0 && n != -EINTR) break;
     if (n > 0) taken += static_cast<std::size_t>(n);
   }
-  // What may not wait is done when it has been taken: the results are there.
+  // Sends that must not block are finished when they are accepted: the results are available.
   std::size_t seen = 0;
   while (seen < taken) {
     io_uring_cqe* done = nullptr;
     const int error = io_uring_wait_cqe(ring, &done);
     if (error == -EINTR) continue;
-    if (error != 0) break;  // nobody knows what went out of those that are left
+    if (error != 0) break;  // it is unknown what was sent of the remaining messages
     messages_[done->user_data].result = done->res;
     io_uring_cqe_seen(ring, done);
     ++seen;

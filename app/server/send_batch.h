@@ -14,51 +14,51 @@ struct io_uring;
 
 namespace signweave::server {
 
-/// What streams have to send at one tick, collected and then sent in one go: all of it by one call of the kernel
-/// (io_uring), or by one `send` after the other where the kernel refuses that. Nothing waits, either way: when flush()
-/// returns, each knows how much of its message went out. Belongs to one thread.
+/// Collects what streams have to send at one tick, and sends it together: by one system call (io_uring), or by one
+/// `send` each if the kernel refuses that. Neither blocks: when flush() returns, each sender knows how much of its
+/// message was sent. Belongs to one thread.
 class SendBatch {
  public:
-  enum class Way {
-    one_call,   ///< where the kernel lets us; else as call_each
-    call_each,  ///< a `send` for each
+  enum class Mode {
+    one_call,   ///< if the kernel allows it; otherwise as call_each
+    call_each,  ///< one `send` each
   };
-  /// What goes out one after the other; either may be empty.
+  /// Two buffers sent one after the other; either may be empty.
   using Parts = std::array<std::span<const std::byte>, 2>;
-  /// What a batch sends for.
+  /// A sender whose messages a batch sends.
   class Sender {
    protected:
     ~Sender() = default;
 
    private:
     friend class SendBatch;
-    /// What is to be sent; asked for when it is, and must stay as it is until `sent` is called.
+    /// The bytes to send; called when they are sent, and must stay valid until `sent` is called.
     virtual Parts to_send() const noexcept = 0;
-    /// How many bytes went out, or an error number, negative; -EAGAIN where the kernel has no room.
+    /// Reports how many bytes were sent, or a negative error number; -EAGAIN if the kernel's buffer is full.
     virtual void sent(long result) noexcept = 0;
   };
 
-  /// Messages that are sent in one go at most.
+  /// Most messages sent together.
   static constexpr std::size_t kMost = 64;
 
-  /// `by_one_call` counts the messages that went out so; it must outlive the batch. Sends by a call for each at first.
+  /// `by_one_call` counts the messages sent together; it must outlive the batch. Starts with call_each.
   explicit SendBatch(Counter& by_one_call);
   ~SendBatch();
   SendBatch(const SendBatch&) = delete;
   SendBatch& operator=(const SendBatch&) = delete;
 
-  /// To be called by the thread that sends, and with `call_each` before that ends: the kernel interrupts what a thread
-  /// waits for when it takes down a ring that this thread made.
-  void use(Way way);
-  Way way() const noexcept { return ring_ ? Way::one_call : Way::call_each; }
+  /// To be called by the sending thread, and with `call_each` before that thread ends: when the kernel takes down a
+  /// ring, it interrupts the blocking calls of the thread that created it.
+  void use(Mode mode);
+  Mode mode() const noexcept { return ring_ ? Mode::one_call : Mode::call_each; }
 
-  /// From now on messages may be added; until finish().
+  /// Messages may be added from now on, until finish().
   void collect() noexcept { collecting_ = true; }
   bool collecting() const noexcept { return collecting_; }
-  /// Adds a sender that is not in the batch. Sends first what there is, where the batch is full. Sender and descriptor
-  /// must stay until `sent` is called.
+  /// Adds a sender that is not in the batch yet. If the batch is full, it is sent first. Sender and descriptor must
+  /// stay valid until `sent` is called.
   void add(Sender& sender, int descriptor) noexcept;
-  /// Sends what there is; collects on.
+  /// Sends what was added; collecting continues.
   void flush() noexcept;
   void finish() noexcept {
     flush();
@@ -85,7 +85,7 @@ class SendBatch {
   bool collecting_ = false;
 };
 
-/// So many of these bytes went out without waiting, or what went wrong: as Sender::sent is given.
+/// Sends without blocking; returns the bytes sent or a negative error number, as for Sender::sent.
 long send_now(int descriptor, std::span<const std::byte> bytes) noexcept;
 
 }  // namespace signweave::server

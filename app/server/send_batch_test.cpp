@@ -15,7 +15,7 @@
 namespace signweave::server {
 namespace {
 
-/// One end of a connection that sends; the test reads at the other.
+/// The sending end of a connection; the test reads at the other end.
 class Line final : public SendBatch::Sender {
  public:
   Line() {
@@ -55,7 +55,7 @@ class Line final : public SendBatch::Sender {
   void sent(long result) noexcept override { results.push_back(result); }
 };
 
-class SendBatchTest : public ::testing::TestWithParam<SendBatch::Way> {
+class SendBatchTest : public ::testing::TestWithParam<SendBatch::Mode> {
  protected:
   SendBatchTest() { batch.use(GetParam()); }
 
@@ -64,27 +64,28 @@ class SendBatchTest : public ::testing::TestWithParam<SendBatch::Way> {
 };
 
 INSTANTIATE_TEST_SUITE_P(BothWays, SendBatchTest,
-                         ::testing::Values(SendBatch::Way::one_call, SendBatch::Way::call_each), [](const auto& info) {
-                           return info.param == SendBatch::Way::one_call ? "OneCall" : "CallEach";
+                         ::testing::Values(SendBatch::Mode::one_call, SendBatch::Mode::call_each),
+                         [](const auto& info) {
+                           return info.param == SendBatch::Mode::one_call ? "OneCall" : "CallEach";
                          });
 
 using Results = std::vector<long>;
 
-TEST_P(SendBatchTest, SendsToEachItsOwnAndTellsHowMuch) {
+TEST_P(SendBatchTest, SendsToEachItsOwnAndReportsTheBytes) {
   Line a, b;
   batch.collect();
   a.add_to(batch, "first");
   b.add_to(batch, "second one");
-  EXPECT_EQ(a.received(), "") << "it is only collected";
+  EXPECT_EQ(a.received(), "") << "it must only be collected";
   batch.finish();
   EXPECT_FALSE(batch.collecting());
   EXPECT_EQ(a.received(), "first");
   EXPECT_EQ(b.received(), "second one");
   EXPECT_EQ(a.results, Results{5});
   EXPECT_EQ(b.results, Results{10});
-  EXPECT_EQ(by_one_call.value(), batch.way() == SendBatch::Way::one_call ? 2u : 0u);
+  EXPECT_EQ(by_one_call.value(), batch.mode() == SendBatch::Mode::one_call ? 2u : 0u);
   batch.finish();
-  EXPECT_EQ(a.results.size(), 1u) << "what has gone out is forgotten";
+  EXPECT_EQ(a.results.size(), 1u) << "what was sent is forgotten";
 }
 
 TEST_P(SendBatchTest, SendsTwoPartsInTheirOrder) {
@@ -99,7 +100,7 @@ TEST_P(SendBatchTest, SendsTwoPartsInTheirOrder) {
   EXPECT_EQ(b.results, Results{5});
 }
 
-TEST_P(SendBatchTest, WhoTakesNothingHoldsNobodyUp) {
+TEST_P(SendBatchTest, AReceiverThatReadsNothingDelaysNoOthers) {
   Line full, gone, good;
   const std::string much(4 << 20, 'x');
   gone.hang_up();
@@ -120,7 +121,7 @@ TEST_P(SendBatchTest, WhoTakesNothingHoldsNobodyUp) {
   EXPECT_EQ(good.received(), "again");
 }
 
-TEST_P(SendBatchTest, WhatIsTooMuchForOneGoGoesInSeveral) {
+TEST_P(SendBatchTest, MoreThanABatchIsSentInSeveral) {
   std::vector<Line> lines(2 * SendBatch::kMost + 3);
   batch.collect();
   for (std::size_t i = 0; i < lines.size(); ++i) {
@@ -135,7 +136,7 @@ TEST_P(SendBatchTest, WhatIsTooMuchForOneGoGoesInSeveral) {
   }
 }
 
-TEST_P(SendBatchTest, GoesOnWithoutTheRingWhereThatBreaks) {
+TEST_P(SendBatchTest, ContinuesWithoutTheRingIfItBreaks) {
   Line a, b;
   for (const auto& one : std::filesystem::directory_iterator("/proc/self/fd")) {
     std::error_code ignored;
@@ -146,13 +147,13 @@ TEST_P(SendBatchTest, GoesOnWithoutTheRingWhereThatBreaks) {
   a.add_to(batch, "one");
   b.add_to(batch, "two");
   batch.finish();
-  EXPECT_EQ(batch.way(), SendBatch::Way::call_each);
+  EXPECT_EQ(batch.mode(), SendBatch::Mode::call_each);
   EXPECT_EQ(a.received(), "one");
   EXPECT_EQ(b.received(), "two") << "once each";
   EXPECT_EQ(by_one_call.value(), 0u);
 }
 
-TEST(SendBatchAlone, SendsOneByOneWhereTheKernelRefusesTheRing) {
+TEST(SendBatchAlone, SendsOneByOneIfTheKernelRefusesTheRing) {
   Line a;
   rlimit before{};
   ASSERT_EQ(::getrlimit(RLIMIT_NOFILE, &before), 0);
@@ -160,9 +161,9 @@ TEST(SendBatchAlone, SendsOneByOneWhereTheKernelRefusesTheRing) {
   ASSERT_EQ(::setrlimit(RLIMIT_NOFILE, &none), 0);
   Counter by_one_call;
   SendBatch batch(by_one_call);
-  batch.use(SendBatch::Way::one_call);
+  batch.use(SendBatch::Mode::one_call);
   ASSERT_EQ(::setrlimit(RLIMIT_NOFILE, &before), 0);
-  EXPECT_EQ(batch.way(), SendBatch::Way::call_each);
+  EXPECT_EQ(batch.mode(), SendBatch::Mode::call_each);
   batch.collect();
   a.add_to(batch, "text");
   batch.finish();

@@ -48,9 +48,10 @@ void ServedDatabases::add(const std::filesystem::path& folder, bool writable) {
   const bool plain = !name.empty() && std::ranges::all_of(name, [](char c) {
     return static_cast<unsigned char>(c) > 0x20 && c != '/' && c != '\\' && c != '%' && c != '?' && c != '#';
   });
-  if (!plain) throw Error(ErrorCode::bad_input, fmt::format("{}: no name that can stand in a URL", folder.string()));
+  if (!plain) throw Error(ErrorCode::bad_input, fmt::format("{}: the name cannot be used in a URL", folder.string()));
   if (std::ranges::any_of(all_, [&](const auto& one) { return one->name() == name; })) {
-    throw Error(ErrorCode::bad_input, fmt::format("two databases would be served as '{}'; rename a folder", name));
+    throw Error(ErrorCode::bad_input,
+                fmt::format("two databases would be served as '{}'; rename one of the folders", name));
   }
   all_.push_back(std::make_unique<ServedDatabase>(name, folder, writable));
 }

@@ -16,10 +16,10 @@
 
 namespace signweave::server {
 
-/// A database that is served, under a name that stands in its URLs. Threads share it.
+/// A served database, with the name used in its URLs. Thread-safe.
 class ServedDatabase {
  public:
-  /// Opened for reading; with `writable` also for changes, and then by no other process.
+  /// Opened for reading; with `writable` also for changes, which excludes changes by other processes.
   ServedDatabase(std::string name, const std::filesystem::path& folder, bool writable);
 
   const std::string& name() const noexcept { return name_; }
@@ -29,11 +29,11 @@ class ServedDatabase {
   /// See Database::announce; to be called before anything is served.
   void announce(std::string_view who) noexcept { database_.announce(who); }
 
-  /// Runs one change at a time, beside all readers. Throws Error{unsupported} where it is not writable, and what
-  /// `change` throws.
+  /// Runs one change at a time, concurrently with all readers. Throws Error{unsupported} if it is not writable, and
+  /// what `change` throws.
   void change(const std::function<void(Database&)>& change);
 
-  /// As calls::stance_of for a recording of these contents; measured when it is first asked for. Threads may share it.
+  /// As calls::stance_of for a recording with these contents; computed on first use. Thread-safe.
   std::shared_ptr<const calls::SignerStance> stance(const std::shared_ptr<const Contents>& contents,
                                                     const std::string& recording);
 
@@ -45,28 +45,29 @@ class ServedDatabase {
   std::mutex changing_;
   std::mutex stances_lock_;
   std::shared_ptr<const Contents> stances_of_;
-  std::map<std::string, std::shared_ptr<const calls::SignerStance>> stances_;  ///< by recording, of stances_of_
+  std::map<std::string, std::shared_ptr<const calls::SignerStance>>
+      stances_;  ///< by recording, for the contents stances_of_
 };
 
-/// A page that draws for this process, and where what it sends back is put.
+/// A page that draws for this process, and the folder for what it sends back.
 struct Render {
-  std::string id;                ///< nobody else knows it
+  std::string id;                ///< known to nobody else
   std::filesystem::path folder;  ///< must exist
 };
 
-/// Every database that is served, and what shows them.
+/// All served databases, and what is served alongside them.
 class ServedDatabases {
  public:
-  /// The name is the folder's without its ending: "corpus/demo.db" is "demo". Throws Error{bad_input} where two have
-  /// one name or a name cannot stand in a URL.
+  /// The name is that of the folder without its extension: "corpus/demo.db" is "demo". Throws Error{bad_input} if two
+  /// have the same name or a name cannot be used in a URL.
   void add(const std::filesystem::path& folder, bool writable);
   const std::vector<std::unique_ptr<ServedDatabase>>& all() const noexcept { return all_; }
   /// Throws Error{not_found} with near matches.
   ServedDatabase& at(std::string_view name) const;
 
   // To be set before anything is served.
-  calls::Characters characters;  ///< that motions may be shown on
-  std::filesystem::path media;   ///< folder of the media that annotations link; empty: none are served
+  calls::Characters characters;  ///< on which motions may be shown
+  std::filesystem::path media;   ///< folder of the media that annotations link to; empty: none are served
   std::optional<Render> render;
 
  private:

@@ -33,7 +33,7 @@ struct Server::State {
 
   Context context;
   tcp::acceptor acceptor;           // on the first thread
-  boost::asio::steady_timer again;  // where accepting failed
+  boost::asio::steady_timer again;  // retries after a failed accept
   boost::asio::signal_set signals;
   std::vector<std::thread> threads;
   std::atomic<bool> stopping = false;
@@ -46,8 +46,9 @@ void Server::State::listen() {
   const std::string address = options.address == "localhost" ? "127.0.0.1" : options.address;
   const tcp::endpoint endpoint(boost::asio::ip::make_address(address, error), options.port);
   if (error) {
-    throw Error(ErrorCode::bad_input, fmt::format("'{}' is no address to listen on: numbers, such as 127.0.0.1 or ::1",
-                                                  printable(options.address)));
+    throw Error(ErrorCode::bad_input,
+                fmt::format("'{}' is not an address to listen on: give numbers, such as 127.0.0.1 or ::1",
+                            printable(options.address)));
   }
   const auto check = [&](const boost::system::error_code& result) {
     if (!result) return;
@@ -61,12 +62,12 @@ void Server::State::listen() {
 }
 
 void Server::State::accept() {
-  // To the thread that has the fewest connections.
+  // Accepts for the thread with the fewest connections.
   IoThread& thread =
       **std::ranges::min_element(context.threads, {}, [](const auto& one) { return one->metrics.connections.value(); });
   acceptor.async_accept(thread.io, [this, &thread](boost::system::error_code error, tcp::socket socket) {
     if (stopping || error == boost::asio::error::operation_aborted) return;
-    if (error) {  // such as no file descriptor left: others must end first
+    if (error) {  // such as no free file descriptor: other connections must end first
       again.expires_after(std::chrono::milliseconds(50));
       again.async_wait([this](boost::system::error_code cancelled) {
         if (!cancelled) accept();
@@ -124,7 +125,7 @@ void Server::stop_on_signals() {
   state.signals.async_wait([&state](boost::system::error_code error, int) {
     if (error) return;
     boost::system::error_code ignored;
-    state.signals.clear(ignored);  // the next one does what signals do
+    state.signals.clear(ignored);  // the next signal has its default effect
     state.stop();
   });
 }
@@ -139,7 +140,8 @@ void Server::wait() {
   }
   state_->context.workers.join();
   state_->context.disk.join();
-  // What was closed runs to its end, here where nobody else runs; so does what came in at the last moment.
+  // Runs the handlers of closed connections to completion, here where no other thread runs them; also those of
+  // connections accepted at the last moment.
   std::size_t ran = 1;
   while (ran > 0) {
     ran = 0;

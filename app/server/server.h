@@ -10,11 +10,11 @@
 
 namespace signweave::server {
 
-/// The network of `signweave serve`: HTTP and streams, on threads of its own. Listens from its constructor on.
+/// The network side of `signweave serve`: HTTP and streams, on its own threads. Listens as soon as it is constructed.
 class Server {
  public:
-  /// Throws Error{bad_input} for an address without a token where one is needed, Error{io} where it cannot listen. All
-  /// that is given must outlive it.
+  /// Throws Error{bad_input} if the address requires a token and there is none, Error{io} if it cannot listen. The
+  /// arguments must outlive it.
   Server(ServedDatabases& databases, Api& api, ServerOptions options);
   /// Stops, as `stop` and `wait` do.
   ~Server();
@@ -25,12 +25,12 @@ class Server {
   /// "http://127.0.0.1:8080"
   std::string url() const;
 
-  /// From now on SIGINT and SIGTERM stop it; a second one ends the process at once.
+  /// From now on SIGINT and SIGTERM stop the server; a second one ends the process immediately.
   void stop_on_signals();
-  /// Stops in good order: nobody new is let in, running calls are answered, streams end with a reason. From any thread,
-  /// also more than once; returns at once.
+  /// Stops in good order: no new connections are accepted, running calls are answered, streams end with a reason.
+  /// Thread-safe, may be called repeatedly; returns immediately.
   void stop();
-  /// Until it has stopped.
+  /// Waits until the server has stopped.
   void wait();
 
  private:

@@ -1,4 +1,4 @@
-// A server as a whole: many clients at once, and its end. Run under the thread sanitizer as well.
+// A server as a whole: many clients at once, and its shutdown. Also run under the thread sanitizer.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -67,13 +67,13 @@ TEST(ServerThreads, EndsInGoodOrderWhileItStreams) {
   ASSERT_EQ(message.opcode, 8u);
   EXPECT_THAT(message.bytes, HasSubstr("the server is being stopped"));
   waiting.send("GET /health HTTP/1.1\r\nHost: localhost\r\n\r\n");
-  EXPECT_EQ(read_answer(waiting).status, 503) << "as long as a stream is ending it tells that it drains";
+  EXPECT_EQ(read_answer(waiting).status, 503) << "while a stream is ending the server reports that it drains";
   client.client.send(StreamClient::frame(8, message.bytes));
   server.server->wait();
   EXPECT_FALSE(Client(server.port()).connected());
 }
 
-TEST(ServerThreads, EndsAlsoWhereClientsDoNotAnswer) {
+TEST(ServerThreads, EndsEvenIfClientsDoNotAnswer) {
   ServerOptions options;
   options.limits.drain = 500ms;
   TestServer server(options);
@@ -117,11 +117,12 @@ TEST(ServerThreads, EndsWhileFilesAreSent) {
   }
 }
 
-TEST(ServerThreads, EndsWithoutAnsweringAllThatWait) {
+TEST(ServerThreads, EndsWithoutAnsweringAllWaitingCalls) {
   ServerOptions options{.workers = 1};
   options.limits.drain = 50ms;
   TestServer server(options);
-  // An answer takes as long as the server has for all that wait, and longer than it takes to ask for them all.
+  // An answer takes as long as the time that the server has for all waiting calls, and longer than sending all
+  // requests.
   std::string utterance = "DEMAIN";
   for (int i = 0; i < 8; ++i) utterance += " MATIN DEMAIN";
   const std::string body = R"({"format":"csv","rate":1000,"utterance":")" + utterance + "\"}";
@@ -142,7 +143,7 @@ TEST(ServerThreads, EndsWithoutAnsweringAllThatWait) {
   EXPECT_LT(std::ranges::count_if(clients.begin() + 1, clients.end(), answered), 20);
 }
 
-TEST(ServerThreads, AnAddressThatIsTakenIsAnError) {
+TEST(ServerThreads, AnAddressInUseIsAnError) {
   TestServer server;
   ServerOptions options{.port = server.port(), .scratch = server.scratch / "scratch"};
   EXPECT_THROW(Server(server.databases, *server.api, options), Error);

@@ -64,7 +64,7 @@ class Descriptor {
 
 constexpr int kOpenFlags = O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY;
 
-/// As open_beneath, for a kernel older than 5.6: folder by folder, and no links at all. A path that ends with a slash
+/// As open_beneath, for kernels older than 5.6: folder by folder, and without any links. A path that ends with a slash
 /// names a folder.
 int open_without_links(int folder, std::string_view path) {
   Descriptor at(::dup(folder));
@@ -79,7 +79,7 @@ int open_without_links(int folder, std::string_view path) {
   return at.release();
 }
 
-/// Opens `path` beneath the folder: no "..", no link that leads out.
+/// Opens `path` beneath the folder: no "..", no link that leads outside.
 int open_beneath(int folder, const std::string& path, FollowedLinks links) {
   if (links == FollowedLinks::none) return open_without_links(folder, path);
   open_how how{};
@@ -164,7 +164,7 @@ std::optional<StaticFile> open_static(const std::filesystem::path& folder, const
     if (segment.starts_with('.') || segment.find_first_of(std::string_view("\\/\0", 3)) != std::string::npos) {
       return std::nullopt;
     }
-    if (!path.empty()) path += '/';  // also before nothing: "page.html/" is no page
+    if (!path.empty()) path += '/';  // also before an empty segment: "page.html/" is not a page
     path += segment;
   }
   const Descriptor root(::open(folder.c_str(), O_PATH | O_DIRECTORY | O_CLOEXEC));

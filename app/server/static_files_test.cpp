@@ -13,7 +13,7 @@
 namespace signweave::server {
 namespace {
 
-/// "served" with what it holds, and beside it what must stay unseen.
+/// The folder "served" with its files, next to files that must not be accessible.
 struct Tree {
   Tree() {
     namespace fs = std::filesystem;
@@ -61,7 +61,7 @@ TEST(StaticFiles, AreThoseOfTheFolder) {
   }
 }
 
-TEST(StaticFiles, ALinkInsideIsFollowedWhereTheKernelCanProveThatItIs) {
+TEST(StaticFiles, ALinkInsideIsFollowedIfTheKernelCanVerifyIt) {
   const Tree tree;
   const bool can = ::syscall(SYS_openat2, -1, "", nullptr, 0) == 0 || errno != ENOSYS;
   EXPECT_EQ(read(tree.root, "/inside.html"), can ? "<p>hello" : "(none)");
@@ -114,7 +114,7 @@ TEST(StaticFiles, AChangeHasAnotherTag) {
   EXPECT_EQ(http_date(784'111'777), "Sun, 06 Nov 1994 08:49:37 GMT");
 }
 
-TEST(StaticFiles, RangesAreThoseOfTheStandard) {
+TEST(StaticFiles, RangesFollowTheStandard) {
   const auto range = [](std::string_view header) { return range_of(header, 100); };
   const auto is = [&](std::string_view header, std::uint64_t begin, std::uint64_t end) {
     const auto found = range(header);

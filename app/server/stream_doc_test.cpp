@@ -1,4 +1,4 @@
-// docs/stream.md says what is: its examples are read and written by the code.
+// docs/stream.md is correct: its examples are read and written by the code.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -15,7 +15,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// The blocks of the document that are fenced as ```json KIND.
+/// The blocks of the document marked as ```json KIND.
 std::vector<std::string> blocks(const std::string& kind) {
   std::ifstream file(SIGNWEAVE_SOURCE_DIR "/docs/stream.md");
   const std::string text{std::istreambuf_iterator<char>(file), {}};
@@ -45,7 +45,7 @@ TEST(StreamDocument, EveryControlMessageIsShownAndRead) {
   EXPECT_EQ(shown.size(), static_cast<std::size_t>(Control::ping) + 1);
 }
 
-/// What the server would have said, from the values of an example.
+/// The server's message for the values of an example.
 std::string said(const Json& example) {
   const std::string type = example["type"];
   const std::string id = example.contains("id") ? example["id"].dump() : "";
@@ -89,7 +89,7 @@ TEST(StreamDocument, AnEventIsJsonWhateverItsTexts) {
   EXPECT_EQ(nlohmann::json::parse(event_text(event))["text"], "no UTF-8: \uFFFD");
 }
 
-TEST(StreamDocument, EveryAnswerIsAsItIsSaid) {
+TEST(StreamDocument, EveryAnswerIsAsDocumented) {
   std::set<std::string> shown;
   for (const std::string& line : lines("server")) {
     const Json example = Json::parse(line);
@@ -99,7 +99,7 @@ TEST(StreamDocument, EveryAnswerIsAsItIsSaid) {
   EXPECT_EQ(shown, (std::set<std::string>{"ok", "score", "error", "place", "rest", "end", "seek", "notice"}));
 }
 
-TEST(StreamDocument, TheHeaderIsAsItIsSaid) {
+TEST(StreamDocument, TheHeaderIsAsDocumented) {
   const StreamHeader header{
       .skeleton = std::make_shared<const Skeleton>(
           std::vector<Joint>{{.name = "Hips", .translated = true},
@@ -114,7 +114,7 @@ TEST(StreamDocument, TheHeaderIsAsItIsSaid) {
             Json::parse(blocks("header").front()));
 }
 
-TEST(StreamDocument, TheBytesAreAsTheTableSays) {
+TEST(StreamDocument, TheBytesAreAsDocumented) {
   EXPECT_EQ(kMessageHeaderBytes, 16u);
   EXPECT_EQ(bytes_of({.joints = 2, .translations = 1, .tracks = 3}), 12u + 3 * 4u + 2 * 8u);
   std::vector<std::byte> bytes(16);

@@ -19,7 +19,7 @@ namespace {
 namespace http = boost::beast::http;
 namespace websocket = boost::beast::websocket;
 
-/// One stream: its control messages, and what they bring about.
+/// One stream: its control messages and their effects.
 class StreamSession final : public Connection, public std::enable_shared_from_this<StreamSession> {
  public:
   StreamSession(IoThread& thread, boost::asio::ip::tcp::socket socket, ServedDatabase& database, bool counted,
@@ -72,7 +72,7 @@ class StreamSession final : public Connection, public std::enable_shared_from_th
     close();
   }
   void drain() override {
-    if (!open_) return close();  // there is no WebSocket yet that could be closed
+    if (!open_) return close();  // there is no WebSocket yet to close
     if (sender_) sender_->stop();
     late_.cancel();
     if (std::exchange(draining_, true)) return;
@@ -95,7 +95,8 @@ class StreamSession final : public Connection, public std::enable_shared_from_th
         buffer_, [self = shared_from_this()](boost::system::error_code error, std::size_t) { self->on_read(error); });
   }
 
-  /// Reads on when there is a token again; until then the client's own socket fills. The timer keeps the stream alive.
+  /// Continues reading when there is a token again; until then the client's own socket fills. The timer keeps the
+  /// stream alive.
   void read_late() {
     const double rate = thread_.context.options.limits.control_rate;
     const std::chrono::duration<double> wait(std::clamp((1 - tokens_) / rate, 0.005, 10.0));
@@ -105,10 +106,10 @@ class StreamSession final : public Connection, public std::enable_shared_from_th
     });
   }
 
-  /// A client that takes nothing of what is left for it is not waited for.
+  /// Limits the wait for a client that does not read what is left for it.
   void close_soon() { closing_until_ = Clock::now() + thread_.context.options.limits.close_time; }
 
-  /// One token a message, and one a KiB of it; they come back with time.
+  /// A message takes one token, plus one per KiB; tokens are refilled over time.
   bool may_read() {
     const double rate = thread_.context.options.limits.control_rate;
     const Clock::time_point now = Clock::now();
@@ -133,7 +134,7 @@ class StreamSession final : public Connection, public std::enable_shared_from_th
         const auto data = buffer_.data();
         answer({static_cast<const char*>(data.data()), data.size()});
       } else {
-        refuse(ErrorCode::bad_input, "control messages are text; frames go only the other way", {});
+        refuse(ErrorCode::bad_input, "control messages must be text; only the server sends frames", {});
       }
     }
     buffer_.consume(buffer_.size());
@@ -146,17 +147,17 @@ class StreamSession final : public Connection, public std::enable_shared_from_th
     say(error_text(code, text, id));
   }
 
-  /// As many of the last clips as a message may hold.
-  void tell_score(std::string_view id) {
+  /// Sends as many of the last clips as fit into a message.
+  void send_score(std::string_view id) {
     const std::size_t most = thread_.context.options.limits.unread_bytes / 2;
     std::string text;
     for (std::size_t clips = Player::kMostScoreClips; clips > 0; clips /= 4) {
       text = score_text(id, sender_ ? sender_->score(clips) : std::nullopt, sender_ ? sender_->frame() : 0);
-      tokens_ -= static_cast<double>(text.size()) / 4'096;  // making it takes time
+      tokens_ -= static_cast<double>(text.size()) / 4'096;  // generating it takes time
       if (text.size() <= most) return say(text);
     }
     throw Error(ErrorCode::unsupported,
-                fmt::format("the score of one clip has {} bytes, and a message may have {}", text.size(), most));
+                fmt::format("the score of one clip has {} bytes; the limit of a message is {}", text.size(), most));
   }
 
   void answer(std::string_view text) {
@@ -165,10 +166,10 @@ class StreamSession final : public Connection, public std::enable_shared_from_th
       const ControlMessage message = parse_control(text);
       id = message.id;
       if (message.control == Control::open) {
-        if (sender_) throw Error(ErrorCode::conflict, "'open' comes first, and once");
+        if (sender_) throw Error(ErrorCode::conflict, "'open' must come first, and only once");
         sender_.emplace(thread_, database_, socket_.next_layer(), message.open);
       } else if (message.control == Control::score) {
-        tell_score(id);
+        send_score(id);
         return;
       } else if (message.control != Control::ping) {
         if (!sender_) sender_.emplace(thread_, database_, socket_.next_layer(), StreamOptions{});
@@ -181,12 +182,12 @@ class StreamSession final : public Connection, public std::enable_shared_from_th
     } catch (const Error& error) {
       thread_.metrics.control_errors.add();
       say(error_text(error, id));
-    } catch (const std::exception& error) {  // no memory, for one: this stream has no future, the others have
+    } catch (const std::exception& error) {  // such as lack of memory: this stream cannot continue, others can
       refuse(ErrorCode::io, error.what(), id);
       if (sender_) sender_->stop();
       draining_ = true;
       close_soon();
-      socket_.async_close({websocket::close_code::internal_error, "a fault of the server"},
+      socket_.async_close({websocket::close_code::internal_error, "an error of the server"},
                           [self = shared_from_this()](boost::system::error_code) {});
     }
   }
@@ -200,8 +201,8 @@ class StreamSession final : public Connection, public std::enable_shared_from_th
   bool open_ = false;  // the handshake is done
   bool draining_ = false;
   double tokens_;
-  boost::asio::steady_timer late_;                  // until more is read
-  std::optional<Clock::time_point> closing_until_;  // then it is closed, whether the client has taken all or not
+  boost::asio::steady_timer late_;                  // until reading continues
+  std::optional<Clock::time_point> closing_until_;  // closed then, whether or not the client has received everything
   Clock::time_point counted_at_ = Clock::now();
 };
 

@@ -8,8 +8,8 @@
 
 namespace signweave::server {
 
-/// Makes a stream of a connection whose request asks for one; it lives until client or server end it. `counted`: the
-/// address has entered the address book, and leaves it with the stream.
+/// Turns a connection whose request asks for a WebSocket into a stream; it lives until client or server end it.
+/// `counted`: the address has entered the address book, and leaves it when the stream ends.
 void start_stream(IoThread& thread, boost::asio::ip::tcp::socket socket, ServedDatabase& database,
                   const boost::beast::http::request_parser<boost::beast::http::buffer_body>& request, bool counted,
                   const boost::asio::ip::address& address);

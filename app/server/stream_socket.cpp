@@ -25,7 +25,7 @@ SendBatch::Parts StreamSocket::to_send() const noexcept {
   return {std::span(queue_).subspan(queue_begin_, first), rest_};
 }
 
-/// So many bytes of to_send() have gone out.
+/// To be called when this many bytes of to_send() were sent.
 void StreamSocket::took(std::size_t bytes) noexcept {
   const std::size_t of_queue = std::min(bytes, to_send()[0].size());
   queue_begin_ += of_queue;
@@ -38,7 +38,7 @@ void StreamSocket::took(std::size_t bytes) noexcept {
 }
 
 void StreamSocket::send_soon() noexcept {
-  if (waiting_ || in_batch_) return;  // it goes after what there is
+  if (waiting_ || in_batch_) return;  // it is sent after what is waiting
   if (!sends_.collecting()) return flush();
   in_batch_ = true;
   sends_.add(*this, socket_.native_handle());
@@ -74,7 +74,7 @@ void StreamSocket::send_text(std::string_view text) {
 
 void StreamSocket::queued() {
   send_soon();
-  if (queue_begin_ > 64 * 1024) {  // or a client that always leaves a little would let it grow
+  if (queue_begin_ > 64 * 1024) {  // otherwise the queue would grow if a client always leaves a little
     queue_.erase(queue_.begin(), queue_.begin() + static_cast<std::ptrdiff_t>(queue_begin_));
     queue_begin_ = 0;
   }

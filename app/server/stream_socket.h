@@ -21,10 +21,10 @@
 
 namespace signweave::server {
 
-/// The socket under a WebSocket, and the one queue of what goes out on it. Beast reads from it, and writes its own
-/// frames (handshake, pong, close) to it, each by one call; messages of frames and of text come in beside, as whole
-/// WebSocket frames. So nothing can come between the parts of a frame, and a message of frames costs one `send`, or
-/// goes out with those of other streams (SendBatch).
+/// The socket under a WebSocket, with the only queue of outgoing bytes. Beast reads from it, and writes its own frames
+/// (handshake, pong, close) to it, each by one call; messages of frames and text are added separately, as complete
+/// WebSocket frames. So nothing can be sent between the parts of a frame, and a message of frames costs one `send`, or
+/// is sent together with those of other streams (SendBatch).
 class StreamSocket final : private SendBatch::Sender {
  public:
   using executor_type = boost::asio::ip::tcp::socket::executor_type;
@@ -38,32 +38,32 @@ class StreamSocket final : private SendBatch::Sender {
   executor_type get_executor() { return socket_.get_executor(); }
   boost::asio::ip::tcp::socket& socket() noexcept { return socket_; }
 
-  /// Called when all has gone out after not all could.
+  /// Called when everything has been sent after a part of it had to wait.
   void on_drained(std::function<void()> drained) { drained_ = std::move(drained); }
-  /// Keeps what holds this socket alive while it waits.
+  /// Sets the owner of this socket, which the socket keeps alive while it waits.
   void held_by(std::weak_ptr<void> owner) { owner_ = std::move(owner); }
 
-  /// True where nothing waits to go out: a message of frames may be sent.
+  /// True if nothing waits to be sent: a message of frames may be sent.
   bool idle() const noexcept { return rest_.empty() && queue_.empty() && !failed_ && !closing_; }
-  /// Bytes of text and of Beast's frames that wait.
+  /// Waiting bytes of text and of Beast's frames.
   std::size_t unread() const noexcept { return queue_.size() - queue_begin_; }
-  /// True where the connection broke, or the client leaves more unread than it may.
+  /// True if the connection broke, or the client leaves more unread than allowed.
   bool failed() const noexcept { return failed_; }
 
-  /// Sends a whole WebSocket frame, after the text that there is; only while no other is under way. While the batch
-  /// collects, it goes out with that. What the kernel does not take at once goes out later, from these same bytes: they
-  /// must stay as they are until the socket is idle.
+  /// Sends a complete WebSocket frame, after any queued text; only while no other is being sent. While the batch
+  /// collects, it is added to the batch. What the kernel does not accept immediately is sent later from the same bytes:
+  /// they must stay valid and unchanged until the socket is idle.
   void send_frame(std::span<const std::byte> frame) noexcept;
-  /// Sends now what is still in the batch, so that idle() tells what the client took.
+  /// Sends what is still in the batch, so that idle() shows whether the client has accepted it.
   void settle() noexcept {
     if (in_batch_) sends_.flush();
   }
-  /// Brings near what send_frame() reads.
+  /// Prefetches what send_frame() reads.
   void prefetch() const noexcept { signweave::prefetch(this, sizeof *this); }
   /// Queues a text message.
   void send_text(std::string_view text);
 
-  // What Beast asks of a stream.
+  // The interface of a Beast stream.
   template <typename Buffers, typename Handler>
   auto async_read_some(const Buffers& buffers, Handler&& handler) {
     return socket_.async_read_some(buffers, std::forward<Handler>(handler));
@@ -77,7 +77,7 @@ class StreamSocket final : private SendBatch::Sender {
             const std::size_t before = queue_.size();
             queue_.resize(before + size);
             boost::asio::buffer_copy(boost::asio::buffer(queue_.data() + before, size), what);
-            // After a close frame nothing may follow.
+            // Nothing may follow a close frame.
             closing_ = closing_ || (size > 0 && queue_[before] == kCloseFrame);
             queued();
           }
@@ -103,10 +103,10 @@ class StreamSocket final : private SendBatch::Sender {
   boost::asio::ip::tcp::socket socket_;
   std::size_t most_unread_;
   SendBatch& sends_;
-  std::span<const std::byte> rest_;  // of the message of frames that is under way
+  std::span<const std::byte> rest_;  // unsent rest of the current message of frames
   std::vector<std::byte> queue_;
   std::size_t queue_begin_ = 0;
-  std::size_t before_rest_ = 0;  // bytes of the queue that go before it; the others go after it
+  std::size_t before_rest_ = 0;  // bytes of the queue to send before `rest_`; the others follow it
   bool in_batch_ = false;
   bool waiting_ = false;
   bool failed_ = false;
@@ -130,8 +130,8 @@ inline void teardown(boost::beast::role_type, StreamSocket& socket, boost::syste
   socket.close();
 }
 
-/// The header of an unmasked, final WebSocket frame; at most 10 bytes, written so that they end at `end`. Returns how
-/// many there are.
+/// Writes the header of an unmasked, final WebSocket frame, at most 10 bytes, so that it ends at `end`. Returns its
+/// size.
 std::size_t write_frame_header(std::byte* end, unsigned opcode, std::size_t payload) noexcept;
 
 }  // namespace signweave::server

@@ -15,8 +15,8 @@ std::span<const std::byte> raw(std::string_view text) {
   return std::as_bytes(std::span(text.data(), text.size()));
 }
 
-/// A stream's socket with a client, both ways of sending.
-class StreamSocketTest : public ::testing::TestWithParam<SendBatch::Way> {
+/// A stream's socket with a client, with both methods of sending.
+class StreamSocketTest : public ::testing::TestWithParam<SendBatch::Mode> {
  protected:
   StreamSocketTest() {
     sends.use(GetParam());
@@ -26,7 +26,7 @@ class StreamSocketTest : public ::testing::TestWithParam<SendBatch::Way> {
     socket->socket().set_option(boost::asio::socket_base::send_buffer_size(16 * 1024));
     socket->held_by(socket);
   }
-  /// So many bytes at the client; the server's side goes on meanwhile.
+  /// Reads so many bytes at the client, while the server's side continues.
   std::string received(std::size_t bytes) {
     std::string text(bytes, '\0');
     client.non_blocking(true);
@@ -48,8 +48,9 @@ class StreamSocketTest : public ::testing::TestWithParam<SendBatch::Way> {
 };
 
 INSTANTIATE_TEST_SUITE_P(BothWays, StreamSocketTest,
-                         ::testing::Values(SendBatch::Way::one_call, SendBatch::Way::call_each), [](const auto& info) {
-                           return info.param == SendBatch::Way::one_call ? "OneCall" : "CallEach";
+                         ::testing::Values(SendBatch::Mode::one_call, SendBatch::Mode::call_each),
+                         [](const auto& info) {
+                           return info.param == SendBatch::Mode::one_call ? "OneCall" : "CallEach";
                          });
 
 TEST_P(StreamSocketTest, AFrameWaitsForTheOthersOfItsTick) {
@@ -62,7 +63,7 @@ TEST_P(StreamSocketTest, AFrameWaitsForTheOthersOfItsTick) {
   EXPECT_TRUE(socket->idle());
   EXPECT_EQ(received(500), frame);
   socket->send_frame(raw(frame));
-  EXPECT_EQ(received(500), frame) << "at once where nothing is collected";
+  EXPECT_EQ(received(500), frame) << "at once if nothing is collected";
 }
 
 TEST_P(StreamSocketTest, TextComesAfterTheFrameBeforeIt) {
@@ -76,7 +77,7 @@ TEST_P(StreamSocketTest, TextComesAfterTheFrameBeforeIt) {
 TEST_P(StreamSocketTest, TextComesBeforeTheFrameAfterIt) {
   sends.collect();
   socket->send_text("text");
-  EXPECT_EQ(client.available(), 0u) << "they go out together";
+  EXPECT_EQ(client.available(), 0u) << "they are sent together";
   socket->send_frame(raw("frame"));
   sends.finish();
   EXPECT_EQ(received(11), std::string("\x81\x04textframe"));
@@ -87,7 +88,7 @@ TEST_P(StreamSocketTest, TextComesBeforeTheFrameAfterIt) {
                                      "alone"));
 }
 
-TEST_P(StreamSocketTest, AFrameWaitsForTextThatDidNotGoOut) {
+TEST_P(StreamSocketTest, AFrameWaitsForUnsentText) {
   const std::string text(60'000, 't');
   int texts = 0;
   while (socket->idle()) {
@@ -104,7 +105,7 @@ TEST_P(StreamSocketTest, AFrameWaitsForTextThatDidNotGoOut) {
   EXPECT_TRUE(received(expected.size()) == expected);
 }
 
-TEST_P(StreamSocketTest, WhatAClientDoesNotTakeAtOnceGoesOutLater) {
+TEST_P(StreamSocketTest, WhatAClientDoesNotReadAtOnceIsSentLater) {
   int drained = 0;
   socket->on_drained([&] { ++drained; });
   const std::string frame(4 << 20, 'f');
@@ -129,7 +130,7 @@ TEST_P(StreamSocketTest, AClientThatHasGoneIsNoticed) {
   EXPECT_FALSE(socket->idle());
 }
 
-TEST_P(StreamSocketTest, MayBeClosedAndGoWhileItsFrameIsCollected) {
+TEST_P(StreamSocketTest, MayBeClosedAndDestroyedWhileItsFrameIsCollected) {
   const std::string frame(500, 'f');
   sends.collect();
   socket->send_frame(raw(frame));

@@ -33,7 +33,8 @@ TEST(Stream, HeaderThenFramesThenTheEnd) {
   EXPECT_EQ(header["rate"], 60.0);
   EXPECT_EQ(header["joints"][0]["parent"], -1);
   EXPECT_EQ(header["translated"][0], 0);
-  EXPECT_THAT(header["declarations"].dump(), HasSubstr("placeholder")) << "every client must be told what it sees";
+  EXPECT_THAT(header["declarations"].dump(), HasSubstr("placeholder"))
+      << "every client must be informed of what it sees";
   const FrameShape shape{.joints = header["joints"].size(),
                          .translations = header["translated"].size(),
                          .tracks = header["tracks"].size()};
@@ -61,7 +62,7 @@ TEST(Stream, HeaderThenFramesThenTheEnd) {
   EXPECT_GT(expected, 60u);
 }
 
-TEST(Stream, GivesTheScoreOfWhatItShows) {
+TEST(Stream, ReturnsTheScoreOfWhatItShows) {
   const TestServer server;
   StreamClient client(server.port());
   client.say(R"({"type":"score","id":1})");
@@ -78,7 +79,7 @@ TEST(Stream, GivesTheScoreOfWhatItShows) {
   EXPECT_EQ(clip.signs.front().gloss, "DEMAIN");
 }
 
-TEST(Stream, PacedFramesComeAtTheirTime) {
+TEST(Stream, PacedFramesArriveAtTheirTime) {
   const TestServer server;
   StreamClient client(server.port());
   client.say(R"({"type":"open","rate":100})");
@@ -91,7 +92,7 @@ TEST(Stream, PacedFramesComeAtTheirTime) {
   EXPECT_LT(took, 5s) << "a slow machine may be late, but catches up";
 }
 
-TEST(Stream, ErrorsAreAnsweredAndTheStreamGoesOn) {
+TEST(Stream, ErrorsAreAnsweredAndTheStreamContinues) {
   const TestServer server;
   StreamClient client(server.port());
   client.say(kFastOpen);
@@ -111,7 +112,7 @@ TEST(Stream, ErrorsAreAnsweredAndTheStreamGoesOn) {
   EXPECT_EQ(missing["suggestion"], "DEMAIN");
   says(R"({"type":"sign","utterance":"DEMAINN","missing":"fold"})", "not_found", "DEMAIN");
   says(R"({"type":"sign","utterance":"DEMAIN","missing":"guess"})", "bad_input", "must be one of explain, fold");
-  says(R"({"type":"open"})", "conflict", "comes first");
+  says(R"({"type":"open"})", "conflict", "must come first");
   client.client.send(StreamClient::frame(2, "bytes"));
   EXPECT_EQ(client.next("error")["code"], "bad_input");
   client.say(R"({"type":"ping","id":"still there"})");
@@ -120,7 +121,7 @@ TEST(Stream, ErrorsAreAnsweredAndTheStreamGoesOn) {
   EXPECT_TRUE(client.next_frames());
 }
 
-TEST(Stream, SpellingIsFoldedWhereThatIsAskedFor) {
+TEST(Stream, SpellingIsFoldedIfRequested) {
   const TestServer server;
   StreamClient client(server.port());
   client.say(kFastOpen);
@@ -129,7 +130,7 @@ TEST(Stream, SpellingIsFoldedWhereThatIsAskedFor) {
   EXPECT_EQ(client.next("place")["gloss"], "DEMAIN");
 }
 
-TEST(Stream, PausesAndGoesOn) {
+TEST(Stream, PausesAndResumes) {
   const TestServer server;
   StreamClient client(server.port());
   client.say(R"({"type":"open","rate":200})");
@@ -146,12 +147,12 @@ TEST(Stream, PausesAndGoesOn) {
   EXPECT_EQ(client.next_frames()->first_frame, ok["frame"]) << "no frame is lost by a pause";
 }
 
-class StreamWays : public ::testing::TestWithParam<bool> {};
+class StreamSending : public ::testing::TestWithParam<bool> {};
 
-INSTANTIATE_TEST_SUITE_P(Stream, StreamWays, ::testing::Bool(),
+INSTANTIATE_TEST_SUITE_P(Stream, StreamSending, ::testing::Bool(),
                          [](const auto& info) { return info.param ? "IoUring" : "CallEach"; });
 
-TEST_P(StreamWays, StreamsThatAreDueTogetherEachGetTheirOwn) {
+TEST_P(StreamSending, StreamsDueTogetherEachReceiveTheirOwnFrames) {
   const TestServer server({.threads = 1, .io_uring = GetParam()});
   std::vector<StreamClient> clients;
   for (int i = 0; i < 12; ++i) {
@@ -160,8 +161,8 @@ TEST_P(StreamWays, StreamsThatAreDueTogetherEachGetTheirOwn) {
     clients.back().say(R"({"type":"sign","utterance":"DEMAIN MATIN"})");
   }
   std::vector<std::size_t> places(clients.size());
-  // What each got, and the frame after the last one. Some may be left out, for fast streams fill their buffers while
-  // slow ones are read; a header counts all that were left out so far.
+  // The frames received by each, and the frame after the last one. Some may be dropped, because fast streams fill their
+  // buffers while slow ones are read; a header counts all dropped so far.
   std::vector<std::uint64_t> got(clients.size()), next(clients.size());
   for (int round = 0; round < 200; ++round) {
     for (std::size_t i = 0; i < clients.size(); ++i) {
@@ -192,7 +193,7 @@ TEST_P(StreamWays, StreamsThatAreDueTogetherEachGetTheirOwn) {
   EXPECT_TRUE(GetParam() || metrics.find("\nsignweave_messages_by_io_uring_total 0\n") != std::string::npos);
 }
 
-TEST_P(StreamWays, ASlowClientLosesFramesAndNobodyElseDoes) {
+TEST_P(StreamSending, OnlyASlowClientLosesFrames) {
   ServerOptions options{.threads = 1, .io_uring = GetParam()};
   options.limits.send_buffer = 16 * 1024;
   const TestServer server(options);
@@ -202,7 +203,7 @@ TEST_P(StreamWays, ASlowClientLosesFramesAndNobodyElseDoes) {
   StreamClient good(server.port());
   good.say(R"({"type":"open","rate":100})");
   good.say(R"({"type":"sign","utterance":"MATIN PLUIE"})");
-  // A server that waited for the slow one, which reads nothing yet, would send the good one nothing either.
+  // A server that waited for the slow client, which reads nothing yet, would send nothing to the good one either.
   std::uint64_t got = 0;
   for (int i = 0; i < 150; ++i) {
     const auto frames = good.next_frames();
@@ -210,7 +211,7 @@ TEST_P(StreamWays, ASlowClientLosesFramesAndNobodyElseDoes) {
     ASSERT_EQ(frames->first_frame, got + frames->left_out);
     got += frames->frames;
   }
-  // The slow one reads again: what came through and what was left out are all there was.
+  // The slow client reads again: received and dropped frames together are complete.
   std::uint64_t received = 0;
   MessageHeader last;
   while (last.left_out == 0) {
@@ -225,7 +226,7 @@ TEST_P(StreamWays, ASlowClientLosesFramesAndNobodyElseDoes) {
   EXPECT_THAT(metrics, Not(HasSubstr("signweave_frames_left_out_total 0\n")));
 }
 
-TEST(Stream, AClientThatNeverReadsIsClosedAtABound) {
+TEST(Stream, AClientThatNeverReadsIsClosedAtALimit) {
   ServerOptions options;
   options.limits.control_rate = 1e6;
   options.limits.unread_bytes = 32 * 1024;
@@ -252,7 +253,7 @@ TEST(Stream, MessagesBeyondTheRateAreReadLater) {
   }
 }
 
-TEST(Stream, AClientThatClosesAndReadsNothingIsNotKept) {
+TEST(Stream, AClientThatClosesAndReadsNothingIsDropped) {
   ServerOptions options;
   options.limits.send_buffer = 8 * 1024;
   options.limits.close_time = 300ms;
@@ -270,7 +271,7 @@ TEST(Stream, AClientThatClosesAndReadsNothingIsNotKept) {
   EXPECT_THAT(metrics, HasSubstr("\nsignweave_streams 0\n"));
 }
 
-TEST(Stream, AnOversizeMessageEndsItsStreamAlone) {
+TEST(Stream, AnOversizeMessageEndsOnlyItsStream) {
   ServerOptions options;
   options.limits.control_bytes = 1'024;
   const TestServer server(options);
@@ -285,7 +286,7 @@ TEST(Stream, AnOversizeMessageEndsItsStreamAlone) {
   EXPECT_EQ(other.next("ok")["type"], "ok");
 }
 
-TEST(Stream, BrokenFramesEndTheirStreamAlone) {
+TEST(Stream, BrokenFramesEndOnlyTheirStream) {
   const TestServer server;
   StreamClient other(server.port());
   const std::string unmasked("\x81\x02{}", 4);
@@ -315,12 +316,12 @@ TEST(Stream, ASilentClientIsPingedAndThenClosed) {
     living.say(R"({"type":"ping"})");
   });
   const nlohmann::json answer = living.next("ok");
-  EXPECT_FALSE(answer.is_null()) << "who answers pings stays";
+  EXPECT_FALSE(answer.is_null()) << "a client that answers pings stays connected";
   later.join();
   silent.join();
 }
 
-TEST(Stream, OfOneDatabaseAmongSeveral) {
+TEST(Stream, SelectsOneOfSeveralDatabases) {
   const kv::TestFolder folder;
   std::filesystem::copy(testing::demo_folder(), folder / "other.db", std::filesystem::copy_options::recursive);
   const TestServer server({}, {testing::demo_folder(), folder / "other.db"});
@@ -335,7 +336,7 @@ TEST(Stream, OfOneDatabaseAmongSeveral) {
   }
 }
 
-TEST(Stream, OnlyForTheServersOwnOriginAndToken) {
+TEST(Stream, RequiresTheServersOwnOriginAndToken) {
   const std::string token = "0123456789abcdef";
   const TestServer server({.token = token, .allowed_origins = {"https://signs.example.org"}});
   EXPECT_EQ(StreamClient(server.port()).answer.status, 401);

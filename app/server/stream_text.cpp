@@ -25,7 +25,7 @@ OrderedJson list_of(const Eigen::Vector3f& v) {
   return {v.x(), v.y(), v.z()};
 }
 
-/// Appends a text as JSON has it.
+/// Appends a text as a JSON string.
 void add_quoted(std::string& line, std::string_view text) {
   const auto plain = [](char c) { return c >= ' ' && c <= '~' && c != '"' && c != '\\'; };
   if (!std::ranges::all_of(text, plain)) {
@@ -124,8 +124,8 @@ std::string error_text(const Error& error, std::string_view id) {
   return line_of(object);
 }
 
-// Streams tell so many events that the tree of a JSON library, and its parts all over memory, would cost as much as the
-// frames themselves.
+// Streams report so many events that building each with a JSON library, whose nodes are spread over memory, would cost
+// as much as the frames themselves.
 std::string event_text(const PlayerEvent& event) {
   std::string line = fmt::format(R"({{"type":"{}","frame":{})", event_name(event.kind), event.frame);
   const auto to = std::back_inserter(line);

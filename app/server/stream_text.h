@@ -12,23 +12,23 @@
 
 namespace signweave::server {
 
-// What a stream's server says in JSON, one line each; docs/stream.md shows every one.
+// JSON messages of a stream's server, one line each; docs/stream.md shows all of them.
 
-/// What a header tells beside the player's own.
+/// What a header contains in addition to the player's own.
 struct HeaderContext {
   std::string_view database;
-  std::string_view character = {};  ///< whose joints they are; empty: the recording's
-  std::optional<Pace> pace{};       ///< none: of frames that are there already
+  std::string_view character = {};  ///< the character whose joints they are; empty: the recording's
+  std::optional<Pace> pace{};       ///< nullopt: for frames that exist already
   std::size_t batch = 1;
 };
-/// {"type": "header", …}: what the frames are of.
+/// {"type": "header", …}: describes the frames.
 std::string header_text(const StreamHeader& header, const HeaderContext& context);
 /// {"type": "ok", …}; `frame` is the next frame's number.
 std::string ok_text(std::string_view id, std::uint64_t frame);
-/// {"type": "score", …}; without one, its score is null. `frame` is the next frame's number.
+/// {"type": "score", …}; its score is null if there is none. `frame` is the next frame's number.
 std::string score_text(std::string_view id, const std::optional<ShownScore>& live, std::uint64_t frame);
 std::string error_text(ErrorCode code, std::string_view message, std::string_view id);
-/// The same; of glosses that are not there it lists those that were probably meant.
+/// The same; for unknown glosses it lists the ones that were probably meant.
 std::string error_text(const Error& error, std::string_view id);
 /// {"type": "place" | "rest" | "end" | "seek" | "notice", …}
 std::string event_text(const PlayerEvent& event);

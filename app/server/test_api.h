@@ -21,7 +21,7 @@ namespace signweave::server {
 
 using Path = std::vector<std::string>;
 
-/// For tests: an Api over databases of the demo signer, each in a folder of its own.
+/// For tests: an Api over databases of the demo signer, each in its own folder.
 class TestApi {
  public:
   /// One database, "demo", with meteo and villes.
@@ -33,7 +33,7 @@ class TestApi {
   }
 
   Api& api() { return *api_; }
-  /// What is served beside the databases; to be set before it is asked for.
+  /// What is served alongside the databases; to be set before requests.
   ServedDatabases& served() { return databases_; }
   const Database& database() { return databases_.at("demo").database(); }
   std::filesystem::path scratch() const { return folder_ / "scratch"; }
@@ -53,7 +53,7 @@ class TestApi {
     return api_->answer({.method = "PUT", .path = std::move(path), .body = std::move(body)});
   }
 
-  /// A database of the demo's first two recordings, made once for the whole program.
+  /// A database of the demo's first two recordings, created once for the whole program.
   static const std::filesystem::path& made() {
     static const kv::TestFolder folder;
     static const std::filesystem::path path = [] {
@@ -69,7 +69,7 @@ class TestApi {
   std::unique_ptr<Api> api_;
 };
 
-/// The path of something in the database that TestApi serves.
+/// The path of a resource of the database that TestApi serves.
 inline Path at(Path rest) {
   Path path = {"databases", "demo"};
   path.insert(path.end(), rest.begin(), rest.end());
@@ -80,14 +80,14 @@ inline nlohmann::json json_in(const ApiResponse& response) {
   return nlohmann::json::parse(response.body);
 }
 
-/// An upload with these files, name and bytes.
+/// Opens an upload and puts these files into it: name and bytes.
 inline std::string upload_of(TestApi& api, const std::vector<std::pair<std::string, std::string>>& files) {
   std::string id = json_in(api.send("POST", at({"uploads"})))["upload"];
   for (const auto& [name, body] : files) EXPECT_EQ(api.put(at({"uploads", id, "files", name}), body).status, 200);
   return id;
 }
 
-/// Waits until a job is over.
+/// Waits until a job has ended.
 inline nlohmann::json wait_for(TestApi& api, const std::string& job) {
   for (int i = 0; i < 6'000; ++i) {
     nlohmann::json state = json_in(api.get({"jobs", job}));
@@ -97,7 +97,7 @@ inline nlohmann::json wait_for(TestApi& api, const std::string& job) {
   return "a job that does not end";
 }
 
-/// The fault of an answer, "404 not_found: …".
+/// The error of an answer, "404 not_found: …".
 inline std::string fault_of(const ApiResponse& response) {
   const nlohmann::json error = json_in(response).at("error");
   return std::to_string(response.status) + " " + error.at("code").get<std::string>() + ": " +

@@ -19,10 +19,10 @@
 #include "signweave/kv/test_folder.h"
 #include "tests/demo_database.h"
 
-/// A server on a port of its own, and clients that know just enough to ask it, and to break its rules.
+/// A server on its own port, and clients that know just enough of the protocols to use it and to violate them.
 namespace signweave::server::testing {
 
-/// A database of the demo, made once for all tests of the program; nobody has it open.
+/// A database of the demo, created once for all tests of the program; not opened by any of them.
 inline const std::filesystem::path& demo_folder() {
   static const kv::TestFolder folder;
   static const std::filesystem::path database = [] {
@@ -40,7 +40,7 @@ struct TestServer {
                       Serve serve = Serve::for_reading) {
     for (const auto& one : folders) {
       std::filesystem::path served = one;
-      if (serve == Serve::for_changes) {  // a copy, for the others are shared
+      if (serve == Serve::for_changes) {  // a copy, because the others are shared
         served = scratch / one.filename();
         std::filesystem::copy(one, served, std::filesystem::copy_options::recursive);
       }
@@ -53,7 +53,7 @@ struct TestServer {
     server = std::make_unique<Server>(databases, *api, std::move(options));
   }
   std::uint16_t port() const { return server->port(); }
-  /// Bodies of requests that lie on the disk.
+  /// The number of request bodies stored on disk.
   std::size_t bodies() const {
     std::size_t count = 0;
     for (const auto& one : std::filesystem::directory_iterator(scratch / "scratch")) {
@@ -68,7 +68,7 @@ struct TestServer {
   std::unique_ptr<Server> server;
 };
 
-/// A TCP connection, blocking, that waits 20 s for anything at most.
+/// A blocking TCP connection with timeouts of 120 s.
 class Client {
  public:
   explicit Client(std::uint16_t port, int receive_buffer = 0) : socket_(::socket(AF_INET, SOCK_STREAM, 0)) {
@@ -92,7 +92,7 @@ class Client {
   }
 
   bool connected() const { return connected_; }
-  /// False where the other side has gone.
+  /// False if the other side has closed.
   bool send(std::string_view bytes) {
     while (!bytes.empty()) {
       const ssize_t n = ::send(socket_, bytes.data(), bytes.size(), MSG_NOSIGNAL);
@@ -101,11 +101,11 @@ class Client {
     }
     return true;
   }
-  /// Sends what goes out at once.
+  /// Sends as much as possible without blocking.
   ssize_t send_some(std::string_view bytes) {
     return ::send(socket_, bytes.data(), bytes.size(), MSG_NOSIGNAL | MSG_DONTWAIT);
   }
-  /// So many bytes; fewer where the connection ends before.
+  /// Reads so many bytes; fewer if the connection ends before.
   std::string read(std::size_t bytes) {
     while (read_.size() < bytes && more()) {
     }
@@ -127,7 +127,7 @@ class Client {
   bool more() {
     char buffer[16 * 1024];
     ssize_t n = 0;
-    do {  // the kernel interrupts a thread that made an io_uring when it takes that down
+    do {  // the kernel interrupts a thread that created an io_uring when it takes the ring down
       n = ::recv(socket_, buffer, sizeof buffer, 0);
     } while (n < 0 && errno == EINTR);
     if (n <= 0) return false;
@@ -151,7 +151,7 @@ struct Answer {
   std::string body;
 };
 
-/// One answer of a connection.
+/// Reads one answer from a connection.
 inline Answer read_answer(Client& client, bool body = true) {
   Answer answer;
   answer.head = client.read_until("\r\n\r\n");
@@ -163,7 +163,7 @@ inline Answer read_answer(Client& client, bool body = true) {
   return answer;
 }
 
-/// Sends these bytes as they are.
+/// Sends these bytes unchanged and reads the answer.
 inline Answer ask(std::uint16_t port, std::string_view request) {
   Client client(port);
   client.send(request);
@@ -174,7 +174,8 @@ inline Answer get(std::uint16_t port, const std::string& target, const std::stri
   return ask(port, "GET " + target + " HTTP/1.1\r\nHost: localhost\r\n" + headers + "\r\n");
 }
 
-/// A new upload for the database "demo", and the begin of a request that sends it a file: headers are to follow.
+/// Opens an upload for the database "demo" and returns the beginning of a request that sends it a file; headers are to
+/// follow.
 inline std::string upload_line(std::uint16_t port) {
   const Answer answer =
       ask(port, "POST /api/databases/demo/uploads HTTP/1.1\r\nHost: localhost\r\nContent-Length: 0\r\n\r\n");
@@ -184,12 +185,12 @@ inline std::string upload_line(std::uint16_t port) {
 
 /// A message of a stream.
 struct StreamMessage {
-  unsigned opcode = 0;  ///< 1 text, 2 binary, 8 close, 9 ping; 0 where the connection ended
+  unsigned opcode = 0;  ///< 1 text, 2 binary, 8 close, 9 ping; 0 if the connection ended
   std::string bytes;
   nlohmann::json json() const { return nlohmann::json::parse(bytes); }
 };
 
-/// A stream's client.
+/// A client of a stream.
 class StreamClient {
  public:
   explicit StreamClient(std::uint16_t port, const std::string& query = {}, const std::string& headers = {},
@@ -210,7 +211,7 @@ class StreamClient {
     return bytes.append(payload);
   }
   bool say(std::string_view text) { return client.send(frame(1, text)); }
-  /// Pings are answered, and not told.
+  /// Answers pings and skips them.
   StreamMessage next() {
     for (;;) {
       StreamMessage message;
@@ -229,7 +230,7 @@ class StreamClient {
       client.send(frame(10, message.bytes));
     }
   }
-  /// The next text message of this type; what comes before is passed over.
+  /// The next text message of this type; earlier messages are skipped.
   nlohmann::json next(std::string_view type) {
     for (;;) {
       const StreamMessage message = next();
@@ -239,7 +240,7 @@ class StreamClient {
       if (json["type"] == type) return json;
     }
   }
-  /// The next message of frames; what comes before is passed over.
+  /// The next message of frames; earlier messages are skipped.
   std::optional<MessageHeader> next_frames() {
     for (;;) {
       const StreamMessage message = next();

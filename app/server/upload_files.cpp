@@ -19,7 +19,7 @@ void resolve(std::string& file, const std::filesystem::path& folder, std::string
 }
 
 std::string without_folder(std::string text, const std::string& folder) {
-  // From the start each time: what is left on both sides may make the folder anew.
+  // From the start each time: joining what is left on both sides may form the folder's name again.
   for (std::size_t at = text.find(folder); at != text.npos; at = text.find(folder)) text.erase(at, folder.size());
   return text;
 }

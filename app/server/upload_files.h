@@ -11,11 +11,11 @@
 
 namespace signweave::server {
 
-/// A call's file is named by its plain name in the upload whose folder this is: makes a path of it. Nothing for an
-/// empty name. Throws Error{bad_input} for what is no plain file name, Error{not_found}.
+/// Replaces the plain name of a file by its path in `folder`, the folder of the upload. Leaves an empty name unchanged.
+/// Throws Error{bad_input} if it is not a plain file name, Error{not_found}.
 void resolve(std::string& file, const std::filesystem::path& folder, std::string_view field);
 
-/// Does so with every field of a call that names a file, whatever fields it has.
+/// Resolves every field of a call that names a file, for any call.
 struct ResolveFiles {
   const std::filesystem::path& folder;
 
@@ -29,7 +29,7 @@ struct ResolveFiles {
   }
 };
 
-/// Takes the server's folder out of a text, or out of every text of a JSON value: nobody needs to know of it.
+/// Removes the server's folder from a text, or from every text of a JSON value: clients need not know it.
 std::string without_folder(std::string text, const std::string& folder);
 nlohmann::json without_folder(nlohmann::json value, const std::string& folder);
 

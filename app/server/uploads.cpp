@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Nobody guesses another client's upload.
+/// Another client's upload cannot be guessed.
 std::string random_id() {
   std::random_device device;
   std::string id;
@@ -25,7 +25,7 @@ std::string random_id() {
 }
 
 [[noreturn]] void refuse_file() {
-  throw Error(ErrorCode::io, "the file could not be kept (is the server's disk full?)");
+  throw Error(ErrorCode::io, "the file could not be stored (is the server's disk full?)");
 }
 
 void write_file(const fs::path& path, std::string_view body) {
@@ -45,8 +45,8 @@ void move_file(const fs::path& from, const fs::path& to) {
   if (fault) refuse_file();
 }
 
-/// Whole or not at all: who reads the file of this name goes on reading what it was. The name on the way is none that a
-/// client can give.
+/// Atomic: a reader of an existing file of this name continues to read the old one. Clients cannot use the temporary
+/// name.
 void keep_file(const fs::path& from, std::string_view body, const fs::path& to) {
   const fs::path coming = to.parent_path() / ".coming";
   if (from.empty()) {
@@ -80,15 +80,16 @@ void Uploads::require_plain(std::string_view name) {
                      });
   if (plain) return;
   throw Error(ErrorCode::bad_input,
-              fmt::format("'{}' is no plain file name: no folders, no ':', no leading dot, at most {} bytes",
+              fmt::format("'{}' is not a plain file name: no folders, no ':', no leading dot, at most {} bytes",
                           printable(name), kMostBytes));
 }
 
 const Uploads::Upload& Uploads::at(const std::string& database, const std::string& id) const {
   const auto found = uploads_.find(id);
   if (found == uploads_.end() || found->second.database != database) {
-    throw Error(ErrorCode::not_found, fmt::format("no upload '{}' for '{}'; it may be over, or nobody used it for long",
-                                                  printable(id), printable(database)));
+    throw Error(ErrorCode::not_found,
+                fmt::format("no upload '{}' for '{}'; it may have ended, or was not used for too long", printable(id),
+                            printable(database)));
   }
   return found->second;
 }
@@ -104,12 +105,12 @@ const Uploads::Upload& Uploads::at_open(const std::string& database, const std::
 }
 
 void Uploads::require_readable(const std::string& name) {
-  // Beside the formats: tables of pairs and labels, mapping files, buffers of glTF, specifications of ANVIL.
-  constexpr std::string_view kBeside[] = {"", ".csv", ".tsv", ".txt", ".rig", ".bin", ".xml"};
+  // In addition to the formats: tables of pairs and labels, mapping files, buffers of glTF, specifications of ANVIL.
+  constexpr std::string_view kOthers[] = {"", ".csv", ".tsv", ".txt", ".rig", ".bin", ".xml"};
   const FileFormat* format = file_format(name);
   if (format != nullptr && format->reads) return;
   const std::string ending = fold_case(fs::path(name).extension().string());
-  if (std::ranges::find(kBeside, ending) != std::end(kBeside)) return;
+  if (std::ranges::find(kOthers, ending) != std::end(kOthers)) return;
   throw Error(
       ErrorCode::unsupported,
       fmt::format("{}: no import reads files ending in '{}'; send motion {}, annotation {}, faces {}, tables and "
@@ -136,7 +137,7 @@ std::string Uploads::open(const std::string& database) {
   Upload upload{.database = database, .folder = folder_ / id, .files = {}, .touched = std::chrono::steady_clock::now()};
   std::error_code fault;
   fs::create_directories(upload.folder, fault);
-  if (fault) throw Error(ErrorCode::io, "no folder for the upload could be made: " + fault.message());
+  if (fault) throw Error(ErrorCode::io, "the folder for the upload could not be created: " + fault.message());
   uploads_.emplace(id, std::move(upload));
   return id;
 }
@@ -152,7 +153,7 @@ nlohmann::json Uploads::put(const std::string& database, const std::string& id, 
   std::uint64_t all = bytes;
   for (const auto& [other, size] : upload.files) all += other == name ? 0 : size;
   if (all > most_bytes_) {
-    throw too_large(fmt::format("the upload would have {} bytes, and may have {}", all, most_bytes_));
+    throw too_large(fmt::format("the upload would have {} bytes; the limit is {}", all, most_bytes_));
   }
   if (upload.files.size() >= 10'000) throw too_large("the upload has 10000 files already; open another one");
   keep_file(from, body, upload.folder / name);

@@ -13,44 +13,45 @@
 
 namespace signweave::server {
 
-/// Files that clients send before they import them: each upload is a folder of the scratch folder. Threads may share
-/// it.
+/// Files that clients send before importing them: each upload is a subfolder of the scratch folder. Thread-safe.
 class Uploads {
  public:
-  /// Removes what an earlier server left in `folder`, which it makes.
+  /// Removes `folder` with what an earlier server left in it; it is created again for the first upload.
   Uploads(std::filesystem::path folder, std::size_t most, std::uint64_t most_bytes, Seconds idle);
   ~Uploads();
   Uploads(const Uploads&) = delete;
   Uploads& operator=(const Uploads&) = delete;
 
-  /// A new upload for a database. Where there are as many as may be, the one that nobody touched for longest gives way,
-  /// if that is a sixth of the idle time: pages are closed without a word. Else throws StatusError 503.
+  /// Opens an upload for a database and returns its id. If the limit is reached, the upload unused for longest is
+  /// removed if it was unused for at least a sixth of the idle time, because pages are closed without notice. Otherwise
+  /// throws StatusError 503.
   std::string open(const std::string& database);
-  /// Takes a file: `from` is moved where it is given, else `body` is written. Takes the place of a file of the same
-  /// name. Throws Error{not_found}, Error{bad_input} for what is no plain file name, StatusError 413, Error{conflict}
-  /// while it is imported.
+  /// Adds a file: `from` is moved if given, else `body` is written. Replaces a file of the same name. Throws
+  /// Error{not_found}, Error{bad_input} if the name is not a plain file name, StatusError 413, Error{conflict} while
+  /// the upload is being imported.
   nlohmann::json put(const std::string& database, const std::string& id, const std::string& name,
                      const std::filesystem::path& from, std::string_view body);
-  /// Removes one file of it. Throws Error{not_found}, Error{conflict} while it is imported.
+  /// Removes one file of the upload. Throws Error{not_found}, Error{conflict} while the upload is being imported.
   void take_away(const std::string& database, const std::string& id, const std::string& name);
-  /// Throws what `put` would, but for sizes: asked before a long file is sent.
+  /// Throws what `put` would throw, except for sizes: for a check before a long file is sent.
   void require_open(const std::string& database, const std::string& id, const std::string& name) const;
   nlohmann::json describe(const std::string& database, const std::string& id) const;
-  /// Removes it. Throws Error{not_found}, Error{conflict} while it is imported.
+  /// Removes the upload. Throws Error{not_found}, Error{conflict} while it is being imported.
   void discard(const std::string& database, const std::string& id);
-  /// The folder, for an import: until `release` nobody changes it. Throws Error{not_found}, Error{conflict}.
+  /// The folder, for an import: the upload cannot be changed until `release`. Throws Error{not_found}, Error{conflict}.
   std::filesystem::path hold(const std::string& database, const std::string& id);
-  /// The folder, for a look at its files, which may be changed and removed meanwhile; of a file that another takes the
-  /// place of whoever has it open reads the old one. Throws Error{not_found}.
+  /// The folder, for reading its files, which may be changed or removed meanwhile; a reader that has a replaced file
+  /// open continues to read the old one. Throws Error{not_found}.
   std::filesystem::path look(const std::string& database, const std::string& id);
-  /// After an import; with `remove` its files go.
+  /// To be called after an import; with `remove` the upload is removed.
   void release(const std::string& id, bool remove);
-  /// Removes uploads that nobody touched for the idle time.
+  /// Removes uploads that were unused for the idle time.
   void sweep();
 
-  /// Throws Error{bad_input} where `name` is no plain file name: parts, controls, a leading dot, no UTF-8, 200 bytes.
+  /// Throws Error{bad_input} if `name` is not a plain file name: path separators, control characters, ':', a leading
+  /// dot, invalid UTF-8, more than 200 bytes.
   static void require_plain(std::string_view name);
-  /// Throws Error{unsupported} for a file of which no import has any use, such as a picture, by its name's ending.
+  /// Throws Error{unsupported} for a file that no import can use, such as a picture, judging by its extension.
   static void require_readable(const std::string& name);
 
  private:

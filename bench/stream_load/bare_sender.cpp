@@ -20,7 +20,7 @@ struct Receiver {
   int descriptor = -1;
   std::uint64_t frame = 0;
   double start = 0;
-  std::vector<std::byte> message;  // its own, as a server's are
+  std::vector<std::byte> message;  // separate for each, as in a server
 };
 
 /// A WebSocket frame with a message of one frame, `bytes` in all.
@@ -69,7 +69,7 @@ int run_bare_sender(std::size_t streams, std::size_t bytes, double rate, double 
   std::priority_queue<Due> due;
   std::size_t gone = 0;
   std::array<epoll_event, 64> events;
-  const double end = now() + 300;  // should nobody come
+  const double end = now() + 300;  // if no client connects
   while (gone < streams && now() < end) {
     while (!due.empty() && due.top().at <= now()) {
       const std::size_t which = due.top().receiver;

@@ -24,7 +24,7 @@ thread_local std::array<std::byte, 1 << 18> buffer;
 
 void wait_until_ready(int descriptor, short events) {
   pollfd waiting{.fd = descriptor, .events = events, .revents = 0};
-  if (poll(&waiting, 1, kPatience) != 1) throw std::runtime_error("the server says nothing");
+  if (poll(&waiting, 1, kPatience) != 1) throw std::runtime_error("the server sends nothing");
 }
 
 MessageHeader header_of(std::span<const std::byte, kMessageHeaderBytes> bytes) {
@@ -48,7 +48,7 @@ Connection::Connection(std::uint16_t port) : descriptor_(socket(AF_INET, SOCK_ST
   address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
   const int on = 1;
   setsockopt(descriptor_, IPPROTO_TCP, TCP_NODELAY, &on, sizeof on);
-  // On the machine itself a connection is there at once, or queued.
+  // On the same machine a connection is established at once, or queued.
   if (descriptor_ < 0 || (connect(descriptor_, reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0 &&
                           errno != EINPROGRESS)) {
     if (descriptor_ >= 0) close(descriptor_);
@@ -81,7 +81,7 @@ void Connection::upgrade(std::string_view target) {
   std::string answer;
   while (!answer.ends_with("\r\n\r\n")) {
     wait_until_ready(descriptor_, POLLIN);
-    char one = 0;  // byte by byte: what follows belongs to the stream
+    char one = 0;  // byte by byte, because what follows belongs to the stream
     if (recv(descriptor_, &one, 1, 0) != 1) throw std::runtime_error("refused: " + answer);
     answer += one;
   }
@@ -99,7 +99,7 @@ std::string Connection::read_to_end() {
 }
 
 void Connection::send(std::string_view text) {
-  // Masked, as a client must, with zeros: the bytes stay what they are.
+  // Masked, as required of a client, with zeros: the bytes are unchanged.
   std::string bytes("\x81");
   if (text.size() < 126) {
     bytes += static_cast<char>(0x80 | text.size());
@@ -122,7 +122,7 @@ std::span<const std::byte> Connection::receive() {
   return std::span(buffer).first(got > 0 ? static_cast<std::size_t>(got) : 0);
 }
 
-/// Takes bytes of a frame's header; true once it is there.
+/// Takes bytes of a frame's header; true once it is complete.
 bool Connection::take_frame_header() {
   const auto needed = [&]() -> std::size_t {
     if (head_bytes_ < 2) return 2;

@@ -16,34 +16,34 @@ namespace signweave::bench {
 /// Seconds of the steady clock.
 double now();
 
-/// A client's end of one stream, cheap enough to stand beside a thousand others: of a message of frames only the header
-/// is looked at.
+/// A client's end of one stream, cheap enough to run a thousand at a time: only the header of a message of frames is
+/// read.
 class Connection {
  public:
   struct Message {
     bool binary = false;
-    std::string_view text;  ///< until the next call
-    MessageHeader header;   ///< of a binary one
-    std::size_t bytes = 0;  ///< with the WebSocket's own
+    std::string_view text;  ///< valid until the next call
+    MessageHeader header;   ///< of a binary message
+    std::size_t bytes = 0;  ///< including the WebSocket's header
     double at = 0;          ///< when its last byte was read
   };
 
-  /// Connects to a port on this machine. Throws std::runtime_error where that fails.
+  /// Connects to a port on this machine. Throws std::runtime_error if that fails.
   explicit Connection(std::uint16_t port);
   ~Connection();
   Connection(const Connection&) = delete;
   Connection& operator=(const Connection&) = delete;
 
-  /// Becomes a WebSocket. Throws where the server refuses.
+  /// Upgrades to a WebSocket. Throws if the server refuses.
   void upgrade(std::string_view target);
-  /// Sends one text message, whole.
+  /// Sends one complete text message.
   void send(std::string_view text);
-  /// Sends bytes as they are.
+  /// Sends bytes unchanged.
   void send_raw(std::string_view bytes);
-  /// Everything until the server closes.
+  /// Reads everything until the server closes.
   std::string read_to_end();
-  /// Reads what is there, once, and calls `take(const Message&)` for each message that it completes; false where
-  /// nothing was there. Throws where the server has closed.
+  /// Reads the available bytes once, and calls `take(const Message&)` for each message that they complete; false if
+  /// nothing was available. Throws if the server has closed.
   template <typename Take>
   bool read(Take&& take) {
     const std::span<const std::byte> bytes = receive();
@@ -57,10 +57,10 @@ class Connection {
     MessageHeader header;
     double at = 0;
   };
-  /// Waits for the next message, for who has few of them. Throws after some seconds.
+  /// Waits for the next message, for clients that receive few. Throws after some seconds.
   OwnedMessage wait();
 
-  /// Throws where nothing comes for some seconds.
+  /// Throws if nothing arrives for some seconds.
   void wait_until_readable() const;
   int descriptor() const noexcept { return descriptor_; }
 
@@ -71,24 +71,24 @@ class Connection {
   void answer_control(unsigned opcode);
 
   int descriptor_ = -1;
-  std::span<const std::byte> rest_;  // received, not yet looked at; of the thread's buffer, empty between calls
+  std::span<const std::byte> rest_;  // received but not processed yet; in the thread's buffer, empty between calls
   double received_at_ = 0;
-  // The frame that is under way.
+  // The frame being received.
   std::array<std::uint8_t, 10> head_{};
   std::size_t head_bytes_ = 0;
-  std::uint64_t payload_ = 0;  // that is to come
-  // The message, which may have several frames.
+  std::uint64_t payload_ = 0;  // still to be received
+  // The message, which may consist of several frames.
   bool within_ = false;
   bool binary_ = false;
   std::array<std::byte, kMessageHeaderBytes> begin_{};
   std::size_t begin_bytes_ = 0;
   std::size_t bytes_ = 0;
   std::string text_;
-  std::string control_;  // a ping or close may stand between two frames of a message
+  std::string control_;  // a ping or close may come between two frames of a message
   std::deque<OwnedMessage> waiting_;
 };
 
-/// {"type": "place", …} is of type "place". Cheap: what this server writes begins so.
+/// {"type": "place", …} is of type "place". Cheap: relies on this server's messages beginning with the type.
 bool is_of_type(std::string_view text, std::string_view type);
 
 }  // namespace signweave::bench

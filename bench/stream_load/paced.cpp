@@ -24,7 +24,7 @@ struct Arrivals {
   std::uint64_t left_out_last = 0;
 };
 
-/// Of one stream: how late each frame came.
+/// Of one stream: the delay of each frame.
 void add_lateness(const Arrivals& arrivals, double rate, Paced& result) {
   if (arrivals.of_frames.empty()) return;
   const auto since_due = [&](const Arrival& a) { return a.at - static_cast<double>(a.frame) / rate; };

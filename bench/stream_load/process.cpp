@@ -23,11 +23,11 @@ Process::Process(std::vector<std::string> command, std::filesystem::path errors)
   for (std::string& word : command) words.push_back(word.data());
   words.push_back(nullptr);
   std::error_code ignored;
-  std::filesystem::remove(errors_, ignored);  // what an earlier program said there is not this one's
+  std::filesystem::remove(errors_, ignored);  // the output of an earlier program is not this one's
   pid_ = fork();
   if (pid_ < 0) throw std::runtime_error(fmt::format("cannot start {}", command.front()));
   if (pid_ > 0) return;
-  // The child. It ends with this program, however that ends.
+  // The child process. It ends with this program, however that ends.
   prctl(PR_SET_PDEATHSIG, SIGTERM);
   const int log = open(errors_.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
   dup2(open("/dev/null", O_RDONLY), STDIN_FILENO);
@@ -64,7 +64,7 @@ double Process::cpu_seconds() const {
   std::ifstream file(fmt::format("/proc/{}/stat", pid_));
   std::string text;
   std::getline(file, text);
-  // The name in parentheses may hold anything; after it come the state (field 3) and the rest.
+  // The name in parentheses may contain anything; after it come the state (field 3) and the rest.
   std::istringstream fields(text.substr(text.rfind(')') + 1));
   std::string skipped;
   for (int field = 3; field < 14; ++field) fields >> skipped;

@@ -9,21 +9,22 @@
 
 namespace signweave::bench {
 
-/// A program beside this one, told apart by the system: what it costs is read from /proc.
+/// A separate process, whose costs are read from /proc.
 class Process {
  public:
-  /// Starts it, its standard error in a file. Throws std::runtime_error where it cannot.
+  /// Starts the program, with its standard error in a file. Throws std::runtime_error if it cannot.
   Process(std::vector<std::string> command, std::filesystem::path errors);
-  /// SIGTERM, and SIGKILL where it has not ended five seconds later.
+  /// Sends SIGTERM, and SIGKILL if it has not ended five seconds later.
   ~Process();
   Process(const Process&) = delete;
   Process& operator=(const Process&) = delete;
 
-  /// The rest of the first line of its standard error that begins so. Throws where none comes within some seconds.
+  /// Waits for the first line of its standard error that begins with this text and returns the rest of it. Throws if
+  /// there is none within some seconds.
   std::string wait_for_line(std::string_view beginning) const;
-  /// Of all its threads, user and system, since it began.
+  /// CPU time of all its threads, user and system, since its start.
   double cpu_seconds() const;
-  /// Memory that is in use now.
+  /// Memory currently in use.
   double resident_bytes() const;
 
  private:
@@ -31,7 +32,7 @@ class Process {
   std::filesystem::path errors_;
 };
 
-/// What this process has used.
+/// CPU time used by this process.
 double own_cpu_seconds();
 
 }  // namespace signweave::bench

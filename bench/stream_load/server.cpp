@@ -13,7 +13,7 @@ namespace signweave::bench {
 
 namespace {
 
-/// The program of this build, or another one, such as one with sanitizers.
+/// The program of this build, or another one, for instance with sanitizers.
 std::string program() {
   const char* other = std::getenv("SIGNWEAVE_PROGRAM");
   return other != nullptr ? other : SIGNWEAVE_PROGRAM;
@@ -36,7 +36,7 @@ std::unique_ptr<Connection> Server::open(std::string_view options) const {
   auto stream = std::make_unique<Connection>(port_);
   stream->upgrade("/api/stream");
   stream->send(fmt::format(R"({{"type":"open",{}}})", options));
-  if (!wait_for_answer(*stream)) throw std::runtime_error("the server does not open a stream");
+  if (!wait_for_answer(*stream)) throw std::runtime_error("the server did not open a stream");
   return stream;
 }
 
@@ -49,7 +49,7 @@ std::string Server::metrics() const {
 double Server::metric(std::string_view name) const {
   const std::string text = metrics();
   const std::size_t at = text.find(fmt::format("\n{} ", name));
-  if (at == text.npos) throw std::runtime_error(fmt::format("/metrics tells no {}", name));
+  if (at == text.npos) throw std::runtime_error(fmt::format("/metrics has no {}", name));
   return std::stod(text.substr(at + name.size() + 2));
 }
 

@@ -12,7 +12,7 @@
 
 namespace signweave::bench {
 
-/// `signweave serve` of one database, as a process of its own, on a free port of this machine.
+/// `signweave serve` of one database, as a separate process, on a free port of this machine.
 class Server {
  public:
   Server(const std::filesystem::path& database, const std::filesystem::path& work,
@@ -20,10 +20,10 @@ class Server {
 
   const Process& process() const noexcept { return process_; }
   std::uint16_t port() const noexcept { return port_; }
-  /// A connection to its streams, opened: `options` are the fields of "open" after its type, such as
+  /// A connection to its stream, opened: `options` are the fields of "open" after its type, such as
   /// R"("rate":60,"pace":"live")".
   std::unique_ptr<Connection> open(std::string_view options) const;
-  /// A number that /metrics tells, by its whole name with labels.
+  /// The value of a metric in /metrics, by its full name with labels.
   double metric(std::string_view name) const;
 
  private:
@@ -33,19 +33,19 @@ class Server {
   std::uint16_t port_ = 0;
 };
 
-/// Waits for the answer to a control message; false where it is an error. What comes before it is passed over.
+/// Waits for the answer to a control message; false if it is an error. Earlier messages are skipped.
 bool wait_for_answer(Connection& stream);
-/// Waits for the next message of frames; events are passed over. Throws where the server tells of an error.
+/// Waits for the next message of frames; events are skipped. Throws if the server reports an error.
 Connection::OwnedMessage wait_for_frames(Connection& stream);
 
 /// A control message that signs or appends.
 std::string control(std::string_view type, std::string_view utterance);
 
-/// Utterances of a database's own glosses, others each time.
+/// Generates utterances from a database's own glosses, different ones each time.
 class Utterances {
  public:
   explicit Utterances(const std::filesystem::path& database);
-  /// So many glosses at random, one after another.
+  /// So many random glosses, one after another.
   std::string of(std::size_t glosses);
 
  private:

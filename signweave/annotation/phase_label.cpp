@@ -11,7 +11,7 @@ struct KnownLabel {
   PhaseKind kind;
 };
 
-/// Whole labels, not beginnings of words: an unknown label is better reported than guessed. English, French, German,
+/// Labels are matched whole, not by prefix: an unknown label is better reported than guessed. English, French, German,
 /// Dutch, Portuguese, Spanish.
 constexpr KnownLabel kLabels[] = {
     {"p", PhaseKind::preparation},
@@ -89,7 +89,8 @@ constexpr KnownLabel kLabels[] = {
     {"retencion", PhaseKind::hold},
 };
 
-/// "Stroke_2" and "retr." are "stroke" and "retr": no separators, and no counter or full stop at the end.
+/// Maps "Stroke_2" and "retr." to "stroke" and "retr": separators become blanks, a counter or full stop at the end is
+/// dropped.
 std::string plain(std::string folded) {
   std::replace_if(
       folded.begin(), folded.end(), [](char c) { return c == '_' || c == '-'; }, ' ');

@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::size_t kNone = static_cast<std::size_t>(-1);
 
-/// What is wrong with a sign's phases; empty where they fill it in order.
+/// Describes what is wrong with a sign's phases; empty if they fill it in order.
 std::string faults_of(const Sign& sign) {
   std::string faults;
   const auto add = [&](const std::string& fault) { faults += faults.empty() ? fault : "; " + fault; };
@@ -24,12 +24,12 @@ std::string faults_of(const Sign& sign) {
   bool retraction_seen = false;
   for (const Phase& phase : sign.phases) {
     const std::string name = printable(phase.label);
-    if (!sign.span.contains(phase.span)) add(fmt::format("phase '{}' reaches outside it", name));
+    if (!sign.span.contains(phase.span)) add(fmt::format("phase '{}' extends outside it", name));
     if (phase.span.begin > reached) {
       add(fmt::format("a gap of {} ms at {} ms", (phase.span.begin - reached).count(), reached.count()));
     }
     if (phase.span.begin < reached && &phase != &sign.phases.front()) {
-      add(fmt::format("phase '{}' overlaps the one before by {} ms", name,
+      add(fmt::format("phase '{}' overlaps the previous one by {} ms", name,
                       (std::min(reached, phase.span.end) - phase.span.begin).count()));
     }
     reached = std::max(reached, phase.span.end);
@@ -63,7 +63,7 @@ class Collector {
       if (done.insert(tier.id).second) collect_phases(tier);
     }
     for (const auto& [label, count] : unknown_) {
-      note("", fmt::format("{} phases have the unknown label '{}': kept as other; map the label to a kind of phase",
+      note("", fmt::format("{} phases have the unknown label '{}': stored as other; map the label to a kind of phase",
                            count, printable(label)));
     }
     for (Sign& sign : found_.signs) finish(sign);
@@ -160,7 +160,7 @@ class Collector {
 
   void report(const Tier& tier, const Loose& loose) {
     if (loose.outside > 0) {
-      note(tier.id, fmt::format("{} phases lie in no sign, the first at {} ms", loose.outside, loose.first.count()));
+      note(tier.id, fmt::format("{} phases are in no sign, the first at {} ms", loose.outside, loose.first.count()));
     }
     if (loose.unlabelled > 0) {
       note(tier.id, fmt::format("{} phases belong to annotations without a gloss", loose.unlabelled));
@@ -177,7 +177,7 @@ class Collector {
     return links;
   }
 
-  /// The sign that is an ancestor, *kNone where that has no gloss; null where there is none.
+  /// The sign that is an ancestor; *kNone if that has no gloss; null if there is none.
   const std::size_t* sign_above(const Annotation& one, const Links& links) const {
     std::string_view at = one.parent;
     for (std::size_t steps = 0; !at.empty() && steps <= links.size(); ++steps) {
@@ -189,7 +189,7 @@ class Collector {
     return nullptr;
   }
 
-  /// The sign tiers that a phase tier of its own may speak of.
+  /// The sign tiers to which the phases of an independent phase tier may belong.
   std::vector<const SignRow*> rows_for(const Tier& tier) const {
     const TierName name = read_tier_name(tier.id);
     const std::string& signer = tier.participant.empty() ? name.signer : tier.participant;
@@ -202,7 +202,7 @@ class Collector {
     return rows;
   }
 
-  /// The sign of a tier that holds a span, else the one that shares most time with it, else kNone.
+  /// The sign of a tier that contains a span, else the one that shares most time with it, else kNone.
   std::size_t sign_around(const SignRow& row, TimeSpan span) const {
     const auto begin = found_.signs.begin() + static_cast<std::ptrdiff_t>(row.begin);
     const auto end = found_.signs.begin() + static_cast<std::ptrdiff_t>(row.end);

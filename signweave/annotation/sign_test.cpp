@@ -30,7 +30,7 @@ Tier tier(std::string id, std::string parent, std::vector<Annotation> annotation
   return result;
 }
 
-/// The paper's pair of tiers: one sign VANNES of 100 to 600 ms with these phases.
+/// The paper's pair of tiers: one sign VANNES from 100 to 600 ms with these phases.
 AnnotationDocument one_sign(std::vector<Annotation> phases) {
   for (Annotation& one : phases) one.parent = "a1";
   AnnotationDocument document;
@@ -54,7 +54,7 @@ std::string only_notice(const SignsFound& found) {
   return found.notices.size() == 1 ? found.notices[0].text : std::string();
 }
 
-TEST(SignsIn, PhasesGoToTheSignThatIsTheirParent) {
+TEST(SignsIn, PhasesBelongToTheirParentSign) {
   const AnnotationDocument document =
       one_sign({annotation("p1", "Préparation", 100, 200), annotation("p2", "Stroke", 200, 450),
                 annotation("p3", "Rétraction", 450, 600)});
@@ -80,7 +80,7 @@ TEST(SignsIn, PhasesMayBeGrandchildren) {
                     tier("Part", "Gloss", {annotation("m1", "x", 0, 100, "a1"), annotation("m2", "y", 100, 200, "a2")}),
                     tier("Phase", "Part",
                          {annotation("p1", "stroke", 0, 100, "m1"),
-                          // as long as the first sign, but under the second
+                          // a grandchild of the second sign
                           annotation("p2", "stroke", 100, 200, "m2")})};
   const SignsFound found = signs_in(document, gloss_and_phase());
   EXPECT_THAT(found.notices, IsEmpty());
@@ -88,17 +88,17 @@ TEST(SignsIn, PhasesMayBeGrandchildren) {
   EXPECT_EQ(found.signs[1].phases.at(0).annotation, "p2");
 }
 
-TEST(SignsIn, TheParentCountsMoreThanTheTime) {
+TEST(SignsIn, TheParentTakesPrecedenceOverTime) {
   AnnotationDocument document;
   document.tiers = {tier("Gloss", "", {annotation("a1", "A", 0, 100), annotation("a2", "B", 100, 200)}),
                     tier("Phase", "Gloss", {annotation("p1", "stroke", 0, 90, "a2")})};
   const SignsFound found = signs_in(document, gloss_and_phase());
   EXPECT_TRUE(found.signs.at(0).inferred);
   EXPECT_EQ(found.signs.at(1).phases.at(0).annotation, "p1");
-  EXPECT_THAT(only_notice(found), HasSubstr("phase 'stroke' reaches outside it"));
+  EXPECT_THAT(only_notice(found), HasSubstr("phase 'stroke' extends outside it"));
 }
 
-TEST(SignsIn, PhasesOfATierOfTheirOwnGoToTheSignAroundThem) {
+TEST(SignsIn, PhasesOfAnIndependentTierBelongToTheSignAroundThem) {
   AnnotationDocument document;
   document.tiers = {tier("Gloss", "", {annotation("a1", "A", 0, 100), annotation("a2", "B", 100, 200)}),
                     tier("Phase", "",
@@ -107,10 +107,10 @@ TEST(SignsIn, PhasesOfATierOfTheirOwnGoToTheSignAroundThem) {
   const SignsFound found = signs_in(document, gloss_and_phase());
   EXPECT_THAT(kinds(found.signs.at(0)), ElementsAre(PhaseKind::stroke));
   EXPECT_THAT(kinds(found.signs.at(1)), ElementsAre(PhaseKind::preparation, PhaseKind::stroke));
-  EXPECT_EQ(only_notice(found), "1 phases lie in no sign, the first at 300 ms");
+  EXPECT_EQ(only_notice(found), "1 phases are in no sign, the first at 300 ms");
 }
 
-TEST(SignsIn, APhaseAcrossTwoSignsGoesWhereMostOfItLies) {
+TEST(SignsIn, APhaseAcrossTwoSignsBelongsToTheOneWithTheLargerOverlap) {
   AnnotationDocument document;
   document.tiers = {tier("Gloss", "", {annotation("a1", "A", 0, 100), annotation("a2", "B", 100, 200)}),
                     tier("Phase", "", {annotation("p1", "stroke", 0, 80), annotation("p2", "stroke", 80, 200)})};
@@ -120,7 +120,7 @@ TEST(SignsIn, APhaseAcrossTwoSignsGoesWhereMostOfItLies) {
   EXPECT_THAT(found.notices, SizeIs(2));
 }
 
-TEST(SignsIn, AHandInThePhaseTiersNameChoosesTheSignTier) {
+TEST(SignsIn, AHandInThePhaseTiersNameSelectsTheSignTier) {
   AnnotationDocument document;
   document.tiers = {tier("Gloss RH", "", {annotation("a1", "A", 0, 100)}),
                     tier("Gloss LH", "", {annotation("a2", "B", 0, 100)}),
@@ -132,13 +132,13 @@ TEST(SignsIn, AHandInThePhaseTiersNameChoosesTheSignTier) {
   const SignsFound found = signs_in(document, names);
   EXPECT_TRUE(found.signs.at(0).inferred);
   EXPECT_FALSE(found.signs.at(1).inferred);
-  names.phase_tiers = {"Phase"};  // speaks of both hands
+  names.phase_tiers = {"Phase"};  // describes both hands
   const SignsFound both = signs_in(document, names);
   EXPECT_THAT(kinds(both.signs.at(0)), ElementsAre(PhaseKind::hold));
   EXPECT_THAT(kinds(both.signs.at(1)), ElementsAre(PhaseKind::hold));
 }
 
-TEST(SignsIn, ASignerInThePhaseTiersNameChoosesTheSignTier) {
+TEST(SignsIn, ASignerInThePhaseTiersNameSelectsTheSignTier) {
   AnnotationDocument document;
   document.tiers = {tier("gloss@A", "", {annotation("a1", "A", 0, 100)}),
                     tier("gloss@B", "", {annotation("a2", "B", 0, 100)}),
@@ -173,7 +173,7 @@ TEST(SignsIn, ASignWithoutPhasesIsOneInferredStroke) {
   EXPECT_EQ(sign.retraction_span(), span(600, 600));
 }
 
-TEST(SignsIn, ASignWithPhasesButNoStrokeStaysWithoutOne) {
+TEST(SignsIn, ASignWithPhasesButNoStrokeGetsNone) {
   const SignsFound found = signs_in(one_sign({annotation("p1", "prep", 100, 600)}), gloss_and_phase());
   const Sign& sign = found.signs.at(0);
   EXPECT_FALSE(sign.inferred);
@@ -183,7 +183,7 @@ TEST(SignsIn, ASignWithPhasesButNoStrokeStaysWithoutOne) {
   EXPECT_THAT(only_notice(found), HasSubstr("no stroke"));
 }
 
-TEST(SignsIn, EmptyGlossesAreNoSignsAndTheirPhasesAreReported) {
+TEST(SignsIn, EmptyGlossesAreNotSignsAndTheirPhasesAreReported) {
   AnnotationDocument document = one_sign({annotation("p1", "stroke", 100, 600)});
   document.tiers[0].annotations[0].label = "  \n";
   const SignsFound found = signs_in(document, gloss_and_phase());
@@ -207,7 +207,7 @@ TEST(SignsIn, HoldsBetweenStrokesAreInsideTheStrokeSpanAndOthersAreNot) {
   EXPECT_EQ(signs_in(document, names).signs.at(0).stroke_span(), span(100, 500));
 }
 
-TEST(SignsIn, UnknownLabelsAreKeptAndReportedOnceEach) {
+TEST(SignsIn, UnknownLabelsAreStoredAndReportedOnceEach) {
   const AnnotationDocument document =
       one_sign({annotation("p1", "stroke", 100, 300), annotation("p2", "wobble", 300, 400),
                 annotation("p3", "wobble", 400, 500), annotation("p4", "", 500, 600)});
@@ -229,7 +229,7 @@ struct Fault {
 
 class SignsInFaults : public testing::TestWithParam<Fault> {};
 
-TEST_P(SignsInFaults, AreReportedAndThePhasesKept) {
+TEST_P(SignsInFaults, AreReportedAndThePhasesStored) {
   const SignsFound found = signs_in(one_sign(GetParam().phases), gloss_and_phase());
   EXPECT_THAT(found.signs.at(0).phases, SizeIs(GetParam().phases.size()));
   EXPECT_EQ(only_notice(found),
@@ -246,8 +246,8 @@ INSTANTIATE_TEST_SUITE_P(
                     Fault{"GapAfter", {annotation("p", "S", 100, 590)}, "a gap of 10 ms at 590 ms"},
                     Fault{"Overlap",
                           {annotation("p", "P", 100, 200), annotation("q", "S", 150, 600)},
-                          "phase 'S' overlaps the one before by 50 ms"},
-                    Fault{"Outside", {annotation("p", "S", 100, 640)}, "phase 'S' reaches outside it"},
+                          "phase 'S' overlaps the previous one by 50 ms"},
+                    Fault{"Outside", {annotation("p", "S", 100, 640)}, "phase 'S' extends outside it"},
                     Fault{"RetractionBeforeStroke",
                           {annotation("p", "R", 100, 200), annotation("q", "S", 200, 600)},
                           "stroke 'S' comes after a retraction"},
@@ -256,7 +256,7 @@ INSTANTIATE_TEST_SUITE_P(
                           "preparation 'P' comes after a stroke"}),
     [](const auto& one) { return one.param.name; });
 
-TEST(SignsIn, ATierThatIsNotThereIsNotFoundWithNearNames) {
+TEST(SignsIn, AMissingTierIsReportedWithNearMatches) {
   TierNames names;
   names.sign_tiers = {{"Glos", Hand::both, ""}};
   try {
@@ -280,7 +280,7 @@ TEST(SignsIn, ATierNamedTwiceGivesItsSignsOnce) {
   EXPECT_THAT(found.signs.at(0).phases, SizeIs(1));
 }
 
-TEST(SignsIn, TiersThatAreTheirOwnAncestorsDoNotHang) {
+TEST(SignsIn, TierCyclesDoNotHang) {
   AnnotationDocument document = one_sign({});
   document.tiers.push_back(tier("X", "Y", {annotation("x", "S", 100, 600, "y")}));
   document.tiers.push_back(tier("Y", "X", {annotation("y", "S", 100, 600, "x")}));
@@ -308,7 +308,7 @@ TEST(PhaseKindOf, KnowsTheWordsOfSeveralLanguages) {
   }
 }
 
-TEST(PhaseKindOf, TheUsersMappingComesFirst) {
+TEST(PhaseKindOf, TheUsersMappingTakesPrecedence) {
   TierNames names;
   names.phase_labels = {{"s", PhaseKind::hold}, {"élan", PhaseKind::preparation}};
   EXPECT_EQ(phase_kind_of("S", names), PhaseKind::hold);

@@ -10,7 +10,7 @@
 namespace signweave {
 namespace {
 
-/// True where most labels of a tier are phases, and more than one kind of them.
+/// True if at least four fifths of a tier's labelled annotations are phases, of more than one kind.
 bool holds_phases(const Tier& tier) {
   std::map<std::string, std::size_t> labels;
   for (const Annotation& one : tier.annotations) ++labels[match_form(one.label)];
@@ -57,7 +57,7 @@ class Guesser {
 
  private:
   static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
-  static constexpr std::size_t kDeepest = 64;  ///< parents of parents looked at; more are no annotator's
+  static constexpr std::size_t kDeepest = 64;  ///< limit of ancestors visited; no annotator nests deeper
 
   std::size_t parent(std::size_t tier) const {
     const auto found = places_.find(document_.tiers[tier].parent);
@@ -79,7 +79,7 @@ class Guesser {
     std::vector<int> scores(count, 0);
     for (std::size_t i = 0; i < count; ++i) {
       if (!phases_[i]) scores[i] = std::max(scores[i], names_[i].sign_score);
-      // The paper's pair of tiers is known by its form, whatever the names.
+      // The paper's pair of tiers is recognised by its structure, whatever the names.
       const std::size_t above = parent(i);
       const TierType* type = document_.find_type(document_.tiers[i].type);
       const bool fills = type != nullptr && type->stereotype == Stereotype::time_subdivision;
@@ -87,7 +87,7 @@ class Guesser {
     }
     const int best = count == 0 ? 0 : *std::max_element(scores.begin(), scores.end());
     if (best == 0) return;
-    // Where the form told one hand's tier, the other hand's may have no phases yet: gloss tiers join it.
+    // If structure identified one hand's tier, the other hand's may still have no phases: gloss tiers are added.
     const auto is_candidate = [&](std::size_t i) { return scores[i] == best || (best == 4 && scores[i] == 3); };
     for (std::size_t i = 0; i < count; ++i) {
       bool below = false;

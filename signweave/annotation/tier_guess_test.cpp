@@ -43,7 +43,7 @@ struct Name {
 
 class SignTierNames : public testing::TestWithParam<Name> {};
 
-TEST_P(SignTierNames, AreKnownInManyConventions) {
+TEST_P(SignTierNames, AreRecognisedInManyConventions) {
   const TierNames names = guess_tier_names(document_of({{"Translation"}, {GetParam().id}, {"Mouthing"}}));
   EXPECT_THAT(names.sign_tiers, ElementsAre(SignTier{GetParam().id, GetParam().hand, GetParam().signer}));
 }
@@ -62,20 +62,20 @@ INSTANTIATE_TEST_SUITE_P(
                     Name{"Glose gauche", Hand::left, ""}, Name{"Gebärde rechts", Hand::right, ""},
                     Name{"Gebaar links", Hand::left, ""}, Name{"main gloss", Hand::both, ""}));
 
-TEST(GuessTierNames, BothHandsAreTakenAndTheFullerFirst) {
+TEST(GuessTierNames, BothHandsAreFoundAndTheFullerComesFirst) {
   const TierNames names =
       guess_tier_names(document_of({{"Gloss LH", "", "", {"A"}}, {"Gloss RH", "", "", {"A", "B"}}}));
   EXPECT_THAT(names.sign_tiers,
               ElementsAre(SignTier{"Gloss RH", Hand::right, ""}, SignTier{"Gloss LH", Hand::left, ""}));
 }
 
-TEST(GuessTierNames, ATierAboutGlossesIsNone) {
+TEST(GuessTierNames, ATierAboutGlossesIsNotASignTier) {
   const TierNames names =
       guess_tier_names(document_of({{"Gloss"}, {"Gloss meaning"}, {"Gloss_comment"}, {"Sign language"}, {"Design"}}));
   EXPECT_THAT(names.sign_tiers, ElementsAre(SignTier{"Gloss", Hand::both, ""}));
 }
 
-TEST(GuessTierNames, AChildOfASignTierIsNone) {
+TEST(GuessTierNames, AChildOfASignTierIsNotASignTier) {
   const TierNames names = guess_tier_names(document_of({{"Gloss FR", "Gloss"}, {"Gloss"}}));
   EXPECT_THAT(names.sign_tiers, ElementsAre(SignTier{"Gloss", Hand::both, ""}));
 }
@@ -86,23 +86,23 @@ TEST(GuessTierNames, AParticipantNeedsNoSignerFromTheName) {
   EXPECT_THAT(guess_tier_names(document).sign_tiers, ElementsAre(SignTier{"gloss@A", Hand::both, ""}));
 }
 
-TEST(GuessTierNames, TheTiersTypeMaySayWhatItsNameDoesNot) {
+TEST(GuessTierNames, TheTiersTypeIsUsedIfItsNameSaysNothing) {
   const TierNames names = guess_tier_names(document_of({{"main droite", "", "gloss"}, {"Texte", "", "default-lt"}}));
   EXPECT_THAT(names.sign_tiers, ElementsAre(SignTier{"main droite", Hand::right, ""}));
 }
 
-TEST(GuessTierNames, PhaseTiersAreKnownByTheirLabels) {
+TEST(GuessTierNames, PhaseTiersAreRecognisedByTheirLabels) {
   const TierNames names = guess_tier_names(document_of(
       {{"Gloss"}, {"Phase", "Gloss", "", {"prep", "stroke", "retr"}}, {"POS", "Gloss", "", {"N", "V", "S"}}}));
   EXPECT_THAT(names.phase_tiers, ElementsAre("Phase"));
 }
 
-TEST(GuessTierNames, AnEmptyTierCalledPhaseIsOne) {
+TEST(GuessTierNames, AnEmptyTierCalledPhaseIsAPhaseTier) {
   const TierNames names = guess_tier_names(document_of({{"Gloss"}, {"Phases", "Gloss", "", {}}}));
   EXPECT_THAT(names.phase_tiers, ElementsAre("Phases"));
 }
 
-TEST(GuessTierNames, ThePairOfThePaperIsKnownByItsFormAlone) {
+TEST(GuessTierNames, ThePairOfThePaperIsRecognisedByStructureAlone) {
   const TierNames names = guess_tier_names(
       document_of({{"gloss list"}, {"ligne 1"}, {"ligne 2", "ligne 1", "phase_lt", {"Préparation", "Stroke"}}}));
   EXPECT_THAT(names.sign_tiers,
@@ -110,7 +110,7 @@ TEST(GuessTierNames, ThePairOfThePaperIsKnownByItsFormAlone) {
   EXPECT_THAT(names.phase_tiers, ElementsAre("ligne 2"));
 }
 
-TEST(GuessTierNames, NothingIsGuessedWhereNothingFits) {
+TEST(GuessTierNames, NothingIsGuessedIfNothingFits) {
   const TierNames names = guess_tier_names(document_of({{"default"},
                                                         {"TRIAL TYPE"},
                                                         {"TASK"},
@@ -121,7 +121,7 @@ TEST(GuessTierNames, NothingIsGuessedWhereNothingFits) {
   EXPECT_THAT(guess_tier_names({}).sign_tiers, IsEmpty());
 }
 
-TEST(GuessTierNames, TiersThatAreTheirOwnAncestorsDoNotHang) {
+TEST(GuessTierNames, TierCyclesDoNotHang) {
   const TierNames names = guess_tier_names(document_of({{"Gloss", "B"}, {"B", "Gloss"}}));
   EXPECT_THAT(names.sign_tiers, IsEmpty());
 }

@@ -20,7 +20,7 @@ constexpr std::string_view kRightWords[] = {"r",     "rh",     "right",  "rhand"
                                             "droit", "rechts", "rechte", "direita", "derecha",   "destra"};
 constexpr std::string_view kLeftWords[] = {"l",      "lh",    "left",  "lhand",    "lefthand",  "mg",
                                            "gauche", "links", "linke", "esquerda", "izquierda", "sinistra"};
-/// Tiers *about* signs: what they mean, how they look, what was thought of them.
+/// Tiers *about* signs: their meaning, form or comments on them.
 constexpr std::string_view kOtherWords[] = {
     "translation", "traduction", "übersetzung", "vertaling",   "tradução",  "traducción", "meaning",     "sens",
     "bedeutung",   "comment",    "comments",    "commentaire", "kommentar", "note",       "notes",       "mouth",

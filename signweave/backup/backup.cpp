@@ -29,7 +29,7 @@ constexpr std::string_view kTitle =
     "A backup of a signweave database. `signweave restore` makes the database again; `signweave check` reads every "
     "byte.\n";
 
-/// Held while a process writes to a backup; the system lets go of it when that ends, however it ends.
+/// A lock held while a process writes to a backup; the system releases it when the process ends, however it ends.
 class BackupLock {
  public:
   explicit BackupLock(const fs::path& folder)
@@ -40,7 +40,7 @@ class BackupLock {
     if (::flock(file_, LOCK_EX | LOCK_NB) != 0) {
       ::close(file_);
       throw Error(ErrorCode::conflict,
-                  folder.string() + ": another process writes to this backup; try again when that one has ended");
+                  folder.string() + ": another process writes to this backup; try again when it has finished");
     }
   }
   ~BackupLock() { ::close(file_); }
@@ -51,7 +51,7 @@ class BackupLock {
   int file_ = -1;
 };
 
-/// Makes the names in a folder survive a power cut.
+/// Makes the entries of a folder survive a power failure.
 void sync_folder(const fs::path& folder) {
   const int handle = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   const int code = handle < 0 ? -1 : ::fsync(handle);
@@ -64,17 +64,17 @@ void sync_folder(const fs::path& folder) {
 void make_folder(const fs::path& folder) {
   std::error_code error;
   fs::create_directories(folder, error);
-  if (error) throw Error(ErrorCode::io, fmt::format("{}: cannot be made: {}", folder.string(), error.message()));
+  if (error) throw Error(ErrorCode::io, fmt::format("{}: cannot be created: {}", folder.string(), error.message()));
 }
 
-/// Makes the folder a backup, or sees that it is one, and not a place where the database itself would be written to.
+/// Turns the folder into a backup, or checks that it is one, and that it is not inside the database.
 void prepare(const fs::path& folder, const fs::path& database) {
   std::error_code error;
   const fs::path inside = fs::weakly_canonical(folder, error).lexically_relative(fs::weakly_canonical(database, error));
   if (!inside.empty() && *inside.begin() != "..") {
-    throw Error(
-        ErrorCode::bad_input,
-        fmt::format("{}: lies in the database; name a folder outside of it, best on another disk", folder.string()));
+    throw Error(ErrorCode::bad_input,
+                fmt::format("{}: is inside the database; name a folder outside of it, preferably on another disk",
+                            folder.string()));
   }
   if (!is_backup(folder)) {
     if (fs::exists(folder, error) && (!fs::is_directory(folder, error) || !fs::is_empty(folder, error))) {
@@ -90,7 +90,7 @@ void prepare(const fs::path& folder, const fs::path& database) {
   make_folder(backup_files::states_folder(folder));
 }
 
-/// What was written of a record is what was read of it: its checksum, in front, fits.
+/// True if the record is intact: the checksum in front of it matches.
 bool is_sound(ByteSpan record) {
   std::uint64_t sum = 0;
   if (record.size() < sizeof sum) return false;
@@ -98,7 +98,7 @@ bool is_sound(ByteSpan record) {
   return checksum(record.subspan(sizeof sum)) == sum;
 }
 
-/// What can be measured anew of motion and annotation, and is where it is missing.
+/// True for records that can be measured again from motion and annotation; missing ones are recomputed.
 bool is_measured(ByteSpan key) {
   const std::string_view kind = semantic_db::kind_of(key);
   return kind == "features" || kind == "traces" || kind == "weights";
@@ -106,7 +106,7 @@ bool is_measured(ByteSpan key) {
 
 using KeyList = std::function<void(const std::function<void(ByteSpan key)>&)>;
 
-/// One state in the making.
+/// Builds one state.
 class Writer {
  public:
   Writer(const fs::path& folder, const kv::ReadTransaction& snapshot) : folder_(folder), snapshot_(snapshot) {
@@ -114,14 +114,14 @@ class Writer {
       try {
         const State state = backup_files::read_state(folder, number);
         known_.insert(state.parts.begin(), state.parts.end());
-      } catch (const Error&) {  // what it named is written again
+      } catch (const Error&) {  // the parts that it named are written again
       }
     }
   }
 
-  /// The part with the records under these keys, written where it is not there. Its name holds a digest of its
-  /// records' checksums, so that other content has another name. Throws Error{corrupt} where a record is missing or
-  /// damaged.
+  /// Returns the name of the part with the records under these keys, and writes the part if it does not exist. Its name
+  /// contains a digest of its records' checksums, so different content has a different name. Throws Error{corrupt} if a
+  /// record is missing or damaged.
   std::pair<std::string, Stamp> part(std::string_view kind, std::uint64_t number, const KeyList& for_each_key,
                                      const std::string& where) {
     RunningChecksum digest;
@@ -169,14 +169,14 @@ class Writer {
   std::uint64_t written_ = 0;
 };
 
-/// Files that a process left that was killed while it wrote them, and parts that no state names.
+/// Removes files that a killed process left unfinished, and parts that no state names.
 void drop_unnamed(const fs::path& folder) {
   std::set<std::string> named;
   for (const std::uint64_t number : backup_files::state_numbers(folder)) {
     try {
       for (const auto& [name, stamp] : backup_files::read_state(folder, number).parts) named.insert(name);
     } catch (const Error&) {
-      return;  // what a damaged state names is unknown, and may be needed yet
+      return;  // the parts of a damaged state are unknown and may still be needed
     }
   }
   std::vector<fs::path> unnamed;
@@ -193,7 +193,7 @@ std::uint64_t sum_of_bytes(const State& state) {
   return sum;
 }
 
-/// The newest state that can be read.
+/// The newest readable state.
 std::optional<State> newest_state(const fs::path& folder) {
   std::vector<std::uint64_t> numbers = backup_files::state_numbers(folder);
   for (; !numbers.empty(); numbers.pop_back()) {
@@ -294,7 +294,7 @@ BackupReport backup(const Database& database, const fs::path& folder, const Back
 
 std::vector<BackupState> backup_states(const fs::path& folder) {
   if (!is_backup(folder)) {
-    throw Error(ErrorCode::not_found, folder.string() + ": no backup of signweave (make one with 'signweave backup')");
+    throw Error(ErrorCode::not_found, folder.string() + ": not a signweave backup (make one with 'signweave backup')");
   }
   std::vector<BackupState> states;
   for (const std::uint64_t number : backup_files::state_numbers(folder)) {
@@ -314,7 +314,7 @@ std::vector<BackupState> backup_states(const fs::path& folder) {
 
 std::vector<std::string> check_backup(const fs::path& folder, const BackupProgress& progress) {
   std::vector<std::string> faults;
-  std::map<std::string, std::pair<Stamp, std::uint64_t>> parts;  // and the newest state that has it
+  std::map<std::string, std::pair<Stamp, std::uint64_t>> parts;  // and the newest state that contains it
   const std::vector<BackupState> states = backup_states(folder);
   for (const BackupState& shown : states) {
     if (!shown.fault.empty()) {

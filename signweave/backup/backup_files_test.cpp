@@ -27,7 +27,7 @@ Records read(const std::filesystem::path& path) {
   return records;
 }
 
-RC_GTEST_PROP(PartFile, GivesBackWhatWasAdded, ()) {
+RC_GTEST_PROP(PartFile, ReturnsWhatWasAdded, ()) {
   const auto keys = *rc::gen::container<std::vector<std::string>>(
       rc::gen::nonEmpty(rc::gen::container<std::string>(rc::gen::arbitrary<char>())));
   Records records;
@@ -38,7 +38,7 @@ RC_GTEST_PROP(PartFile, GivesBackWhatWasAdded, ()) {
   RC_ASSERT(fault_of_part(folder / "part", stamp).empty());
 }
 
-RC_GTEST_PROP(PartFile, AnyOtherByteIsFoundAndDoesNoHarm, ()) {
+RC_GTEST_PROP(PartFile, AnyChangedByteIsDetectedAndHarmless, ()) {
   const TestFolder folder;
   const Stamp stamp = write(folder / "part", {{"one", std::string(50, 'x')}, {"two", ""}, {"three", "value"}});
   std::string bytes = read_file(folder / "part");
@@ -69,11 +69,11 @@ State some_state() {
           .left_out = {"b: motion: a stored record is missing or damaged"}};
 }
 
-TEST(StateFile, SaysWhatItWasGiven) {
+TEST(StateFile, ReturnsWhatItWasGiven) {
   EXPECT_EQ(state_of_text(text_of_state(some_state()), "here"), some_state());
 }
 
-RC_GTEST_PROP(StateFile, AnyOtherByteIsFound, ()) {
+RC_GTEST_PROP(StateFile, AnyChangedByteIsDetected, ()) {
   std::string text = text_of_state(some_state());
   const auto at = *rc::gen::inRange<std::size_t>(0, text.size());
   if (*rc::gen::arbitrary<bool>()) {
@@ -89,12 +89,12 @@ RC_GTEST_PROP(StateFile, AnyOtherByteIsFound, ()) {
   }
 }
 
-/// As `text_of_state` would, with a checksum that fits.
+/// Appends a matching checksum, as `text_of_state` does.
 std::string with_checksum(std::string text) {
   return text + fmt::format("checksum {:016x}\n", checksum(bytes_of(text)));
 }
 
-TEST(StateFile, NamesThatLeadElsewhereAreRefused) {
+TEST(StateFile, NamesThatLeadOutsideAreRefused) {
   const std::string head = "signweave backup 1\nstate 1\ncatalogue c-1-0\npart c-1-0 10 00\n";
   EXPECT_NO_THROW(state_of_text(with_checksum(head), "here"));
   for (const char* const name : {"../../etc/passwd", "", "A", "a/b", "..", "a.b"}) {

@@ -28,7 +28,7 @@ using kv::refusal_of;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-/// Every record of a database but the segment tables, which are made anew.
+/// All records of a database except the segment tables, which are rebuilt.
 std::map<std::string, std::string> records_of(const fs::path& folder) {
   const std::unique_ptr<kv::KvStore> store = kv::open(folder, kv::Access::read_only);
   const std::unique_ptr<kv::ReadTransaction> snapshot = store->read();
@@ -49,7 +49,7 @@ std::set<std::string> files_in(const fs::path& folder) {
   return names;
 }
 
-/// Changes one byte of a file, whose size stays.
+/// Changes one byte of a file without changing its size.
 void damage(const fs::path& path, std::streamoff at) {
   std::fstream file(path, std::ios::binary | std::ios::in | std::ios::out);
   file.seekg(at);
@@ -88,7 +88,7 @@ class BackupTest : public testing::TestWithParam<std::string> {
 INSTANTIATE_TEST_SUITE_P(Engines, BackupTest, testing::ValuesIn(kv::engines()),
                          [](const auto& row) { return row.param; });
 
-TEST_P(BackupTest, ARestoredDatabaseIsTheOneThatWasBackedUp) {
+TEST_P(BackupTest, ARestoredDatabaseEqualsTheOriginal) {
   const BackupReport report = back_up();
   EXPECT_EQ(report.state, 1u);
   EXPECT_EQ(report.recordings, 3u);
@@ -101,10 +101,10 @@ TEST_P(BackupTest, ARestoredDatabaseIsTheOneThatWasBackedUp) {
   EXPECT_EQ(database.engine().name, GetParam());
   EXPECT_TRUE(check(database).faults.empty());
   EXPECT_EQ(database.segments()->row_count(), Database(path(), kv::Access::read_only).segments()->row_count());
-  EXPECT_EQ(files_in(folder_.path()), (std::set<std::string>{"back", "backup", "db"})) << "nothing is left beside it";
+  EXPECT_EQ(files_in(folder_.path()), (std::set<std::string>{"back", "backup", "db"})) << "no other file is left";
 }
 
-TEST_P(BackupTest, WhatIsPutIntoARestoredDatabaseIsThereBesideTheRest) {
+TEST_P(BackupTest, ARestoredDatabaseAcceptsNewRecordings) {
   back_up();
   restore(to(), back());
   {
@@ -132,7 +132,7 @@ TEST_P(BackupTest, OnlyWhatChangedIsWritten) {
   EXPECT_EQ(more.state, 2u);
   EXPECT_LT(more.bytes_written, first.bytes / 2);
   std::set<std::string> added = files_in(to() / "parts");
-  for (const std::string& name : before) EXPECT_EQ(added.erase(name), 1u) << "state 1 has it yet";
+  for (const std::string& name : before) EXPECT_EQ(added.erase(name), 1u) << "state 1 still uses it";
   EXPECT_EQ(added.size(), 3u) << "a motion, an annotation, a catalogue";
 }
 
@@ -151,7 +151,7 @@ TEST_P(BackupTest, EveryStateCanBeRestored) {
   EXPECT_THAT(text, HasSubstr("no state 7; there are 1, 2"));
 }
 
-TEST_P(BackupTest, ADatabaseThatWasRestoredAndChangedKeepsItsOwnPartsInTheSameBackup) {
+TEST_P(BackupTest, ARestoredAndChangedDatabaseHasItsOwnPartsInTheSameBackup) {
   back_up();
   {
     Database database(path(), kv::Access::read_write);
@@ -159,7 +159,7 @@ TEST_P(BackupTest, ADatabaseThatWasRestoredAndChangedKeepsItsOwnPartsInTheSameBa
   }
   back_up();
   restore(to(), back(), {.state = 1});
-  {  // another motion under the generation that "d" has in the other
+  {  // another motion under the same generation that "d" has in the other database
     Database database(back(), kv::Access::read_write);
     database.put(small_recording("e", 5, {"SOLEIL"}));
   }
@@ -170,7 +170,7 @@ TEST_P(BackupTest, ADatabaseThatWasRestoredAndChangedKeepsItsOwnPartsInTheSameBa
   EXPECT_TRUE(same_poses(Database(folder_ / "e", kv::Access::read_only).read("e"), small_motion(300, 5)));
 }
 
-TEST_P(BackupTest, OldStatesGoWithWhatOnlyTheyNeed) {
+TEST_P(BackupTest, OldStatesAreRemovedWithTheirUnsharedParts) {
   back_up();
   for (int i = 0; i < 3; ++i) {
     {
@@ -186,7 +186,7 @@ TEST_P(BackupTest, OldStatesGoWithWhatOnlyTheyNeed) {
   EXPECT_TRUE(check_backup(to()).empty());
 }
 
-TEST_P(BackupTest, ADamagedFileIsNamedAndItsRecordingMayBeLeftOut) {
+TEST_P(BackupTest, ADamagedFileIsNamedAndItsRecordingMayBeSkipped) {
   back_up();
   damage(part("motion-"), 100);
   const std::vector<std::string> faults = check_backup(to());
@@ -194,7 +194,7 @@ TEST_P(BackupTest, ADamagedFileIsNamedAndItsRecordingMayBeLeftOut) {
   EXPECT_THAT(faults[0], HasSubstr("its checksum does not fit; state 1 needs it"));
   std::string text;
   EXPECT_EQ(refusal_of([&] { restore(to(), back()); }, &text), ErrorCode::corrupt);
-  EXPECT_THAT(text, HasSubstr("--skip-damaged"));
+  EXPECT_THAT(text, HasSubstr("without its recording"));
   EXPECT_FALSE(fs::exists(back()));
   const RestoreReport rest = restore(to(), back(), {.skip_damaged = true});
   EXPECT_EQ(rest.recordings, 2u);
@@ -203,7 +203,7 @@ TEST_P(BackupTest, ADamagedFileIsNamedAndItsRecordingMayBeLeftOut) {
   EXPECT_TRUE(check(Database(back(), kv::Access::read_only)).faults.empty());
 }
 
-TEST_P(BackupTest, AFileThatIsMissingIsWrittenAgain) {
+TEST_P(BackupTest, AMissingFileIsWrittenAgain) {
   back_up();
   fs::remove(part("annotation-"));
   ASSERT_EQ(check_backup(to()).size(), 1u);
@@ -219,7 +219,7 @@ TEST_P(BackupTest, ADamagedCatalogueIsNotSkipped) {
   EXPECT_THAT(text, HasSubstr("restore an older state"));
 }
 
-TEST_P(BackupTest, ADamagedRecordIsNotCopiedOverASoundOne) {
+TEST_P(BackupTest, ADamagedRecordDoesNotReplaceAValidOne) {
   back_up();
   Bytes key;
   motion_db::for_each_key(*Database(path(), kv::Access::read_only).info("b")->motion,
@@ -234,7 +234,7 @@ TEST_P(BackupTest, ADamagedRecordIsNotCopiedOverASoundOne) {
     change->put(key, copy);
     change->commit();
   }
-  EXPECT_TRUE(back_up().faults.empty()) << "the backup has what is damaged now";
+  EXPECT_TRUE(back_up().faults.empty()) << "the backup contains the record that is damaged later";
   const fs::path elsewhere = folder_ / "elsewhere";
   const BackupReport report = backup(Database(path(), kv::Access::read_only), elsewhere);
   ASSERT_EQ(report.faults.size(), 1u);
@@ -244,7 +244,7 @@ TEST_P(BackupTest, ADamagedRecordIsNotCopiedOverASoundOne) {
   EXPECT_TRUE(check(Database(folder_ / "whole", kv::Access::read_only)).faults.empty());
 }
 
-TEST_P(BackupTest, FoldersThatHoldSomethingElseAreRefused) {
+TEST_P(BackupTest, FoldersWithOtherContentAreRefused) {
   std::string text;
   fs::create_directory(folder_ / "mine");
   std::ofstream(folder_ / "mine" / "letter.txt") << "dear reader";
@@ -252,14 +252,14 @@ TEST_P(BackupTest, FoldersThatHoldSomethingElseAreRefused) {
   EXPECT_EQ(refusal_of([&] { backup(database, folder_ / "mine"); }, &text), ErrorCode::bad_input);
   EXPECT_THAT(text, HasSubstr("neither a backup nor an empty folder"));
   EXPECT_EQ(refusal_of([&] { backup(database, path() / "inside"); }, &text), ErrorCode::bad_input);
-  EXPECT_THAT(text, HasSubstr("lies in the database"));
+  EXPECT_THAT(text, HasSubstr("is inside the database"));
   EXPECT_EQ(refusal_of([&] { restore(folder_ / "mine", back()); }, &text), ErrorCode::not_found);
-  EXPECT_THAT(text, HasSubstr("no backup of signweave"));
+  EXPECT_THAT(text, HasSubstr("not a signweave backup"));
   backup(database, to());
   EXPECT_EQ(refusal_of([&] { restore(to(), path()); }, &text), ErrorCode::already_exists);
 }
 
-TEST_P(BackupTest, WhatIsCancelledLeavesTheStatesAsTheyWere) {
+TEST_P(BackupTest, ACancelledBackupLeavesTheStatesUnchanged) {
   back_up();
   {
     Database database(path(), kv::Access::read_write);
@@ -276,8 +276,8 @@ TEST_P(BackupTest, WhatIsCancelledLeavesTheStatesAsTheyWere) {
   EXPECT_EQ(restore(to(), back()).recordings, 4u);
 }
 
-TEST_P(BackupTest, ABackupWhileRecordingsComeAndGoIsOneMoment) {
-  // In pairs: a state has both of a pair or none.
+TEST_P(BackupTest, ABackupDuringChangesIsConsistent) {
+  // Written in pairs: a state has both of a pair or neither.
   Database database(path(), kv::Access::read_write);
   std::atomic<bool> stop = false;
   std::thread writer([&] {
@@ -306,7 +306,7 @@ TEST_P(BackupTest, ABackupWhileRecordingsComeAndGoIsOneMoment) {
   writer.join();
 }
 
-TEST_P(BackupTest, ABackupThatIsKilledLeavesTheStatesAsTheyWere) {
+TEST_P(BackupTest, AKilledBackupLeavesTheStatesUnchanged) {
   back_up();
   for (int round = 0; round < 8; ++round) {
     {
@@ -331,7 +331,7 @@ TEST_P(BackupTest, ABackupThatIsKilledLeavesTheStatesAsTheyWere) {
   EXPECT_EQ(records_of(back()), records_of(path()));
 }
 
-TEST_P(BackupTest, WhatAKilledRestoreLeftGoesWithTheNext) {
+TEST_P(BackupTest, TheNextRestoreRemovesWhatAKilledOneLeft) {
   back_up();
   const fs::path left = folder_ / "back.999999999.part";
   fs::create_directory(left);
@@ -340,7 +340,7 @@ TEST_P(BackupTest, WhatAKilledRestoreLeftGoesWithTheNext) {
   EXPECT_FALSE(fs::exists(left));
 }
 
-TEST(BackupBetweenEngines, ABackupMayBecomeADatabaseOfAnotherEngine) {
+TEST(BackupBetweenEngines, ABackupMayBeRestoredToAnotherEngine) {
   const TestFolder folder;
   Database::create(folder / "db", {});
   {

@@ -11,7 +11,7 @@ namespace signweave::backup_files {
 namespace {
 
 constexpr std::string_view kMagic = "signweave part 1";
-constexpr std::size_t kLongestKey = 4096;  // more than any engine takes
+constexpr std::size_t kLongestKey = 4096;  // longer than any engine allows
 
 using File = std::unique_ptr<std::FILE, int (*)(std::FILE*)>;
 
@@ -64,7 +64,7 @@ void read_part(const std::filesystem::path& path, const std::function<void(ByteS
   if (!file) throw Error(ErrorCode::io, fmt::format("{}: cannot be read: {}", path.string(), std::strerror(errno)));
   Bytes buffer;
   const auto take = [&](std::uint64_t size) -> ByteSpan {
-    if (size > left) refuse("the file ends too early");  // before anything so large is allocated
+    if (size > left) refuse("the file ends too early");  // checked before anything so large is allocated
     if (buffer.size() < size) buffer.resize(size);
     if (std::fread(buffer.data(), 1, size, file.get()) != size) {
       if (std::ferror(file.get()) != 0) {
@@ -75,13 +75,13 @@ void read_part(const std::filesystem::path& path, const std::function<void(ByteS
     left -= size;
     return ByteSpan(buffer).first(size);
   };
-  if (left < kMagic.size() || text_of(take(kMagic.size())) != kMagic) refuse("this is no part of a backup");
+  if (left < kMagic.size() || text_of(take(kMagic.size())) != kMagic) refuse("this is not a part of a backup");
   Bytes key;
   while (left > 0) {
     ByteReader head(take(sizeof(std::uint32_t) + sizeof(std::uint64_t)), path.string());
     const auto key_size = head.number<std::uint32_t>();
     const auto value_size = head.number<std::uint64_t>();
-    if (key_size == 0 || key_size > kLongestKey) refuse("a key of a length that no record has");
+    if (key_size == 0 || key_size > kLongestKey) refuse("a key has an impossible length");
     const ByteSpan name = take(key_size);
     key.assign(name.begin(), name.end());
     see(key, take(value_size));

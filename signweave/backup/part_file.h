@@ -8,17 +8,17 @@
 #include "signweave/core/bytes.h"
 #include "signweave/core/running_checksum.h"
 
-/// Files of a backup that hold records of a store, drawn in docs/store.md. Internal to `backup`.
+/// The files of a backup that hold records of a store, drawn in docs/store.md. Internal to `backup`.
 namespace signweave::backup_files {
 
-/// What must be known of a whole file to tell that it is the one that was written.
+/// Identifies the content of a whole file, to verify that it is as written.
 struct Stamp {
   std::uint64_t bytes = 0;
-  std::uint64_t checksum = 0;  ///< XXH3-64 of all of them
+  std::uint64_t checksum = 0;  ///< XXH3-64 of all bytes
   friend bool operator==(const Stamp&, const Stamp&) = default;
 };
 
-/// Writes a part, which appears whole at `commit` or not at all. Throws Error{io}.
+/// Writes a part, which `commit` creates atomically. Throws Error{io}.
 class PartWriter {
  public:
   explicit PartWriter(const std::filesystem::path& path);
@@ -33,11 +33,11 @@ class PartWriter {
   std::uint64_t bytes_ = 0;
 };
 
-/// Empty where the file is the one with this stamp, else what is wrong with it; reads every byte.
+/// Returns what is wrong with a file, or "" if it matches the stamp; reads every byte.
 std::string fault_of_part(const std::filesystem::path& path, const Stamp& stamp);
 
-/// Calls see(key, value) for each record of a part, in the order in which they were added; what it is given is valid
-/// until it returns. Throws Error{corrupt} where the file is none, or ends within a record, and Error{io}.
+/// Calls see(key, value) for each record of a part, in the order in which they were added; the spans are valid until it
+/// returns. Throws Error{corrupt} if the file is not a part or ends within a record, and Error{io}.
 void read_part(const std::filesystem::path& path, const std::function<void(ByteSpan key, ByteSpan value)>& see);
 
 }  // namespace signweave::backup_files

@@ -22,7 +22,7 @@ using backup_files::State;
 namespace {
 
 State chosen_state(const fs::path& folder, const std::optional<std::uint64_t>& wanted) {
-  const std::vector<BackupState> states = backup_states(folder);  // throws where there is no backup
+  const std::vector<BackupState> states = backup_states(folder);  // throws if there is no backup
   if (wanted) {
     for (const BackupState& state : states) {
       if (state.number == *wanted) return backup_files::read_state(folder, *wanted);
@@ -33,13 +33,12 @@ State chosen_state(const fs::path& folder, const std::optional<std::uint64_t>& w
                                                   states.size() == 1 ? "is" : "are", known.empty() ? "none" : known));
   }
   if (states.empty()) {
-    throw Error(ErrorCode::not_found,
-                folder.string() + ": holds no state; the backup that made it did not end, begin it again");
+    throw Error(ErrorCode::not_found, folder.string() + ": contains no state; the backup did not finish, run it again");
   }
   return backup_files::read_state(folder, states.back().number);
 }
 
-/// The parts that are not what they were, each with what is wrong. Throws where nothing can be made of the rest.
+/// The damaged or missing parts, each with what is wrong. Throws if nothing can be restored from the rest.
 std::map<std::string, std::string> damaged_parts(const fs::path& folder, const State& state, bool skip,
                                                  const BackupProgress& progress) {
   std::map<std::string, std::string> damaged;
@@ -62,7 +61,7 @@ std::map<std::string, std::string> damaged_parts(const fs::path& folder, const S
       damaged.contains(state.catalogue) ? Remedies{{"state", ""}} : Remedies{{"state", ""}, {"skip_damaged", ""}});
 }
 
-/// Puts records in transactions of a bounded size.
+/// Puts records in transactions of bounded size.
 class BoundedPuts {
  public:
   explicit BoundedPuts(kv::KvStore& store) : store_(store) {}
@@ -86,14 +85,14 @@ class BoundedPuts {
   std::size_t puts_ = 0, bytes_ = 0;
 };
 
-/// The part of a motion or document in a state; none where there is none.
+/// The part of a motion or document in a state; null if there is none.
 const std::string* part_of(const State& state, std::string_view kind, std::uint64_t generation) {
   const std::string begin = fmt::format("{}-{}-", kind, generation);
   const auto at = state.parts.lower_bound(begin);
   return at != state.parts.end() && at->first.starts_with(begin) ? &at->first : nullptr;
 }
 
-/// Writes the catalogue of what was put, in one transaction, so that it is there whole.
+/// Writes the catalogue of the restored records in one transaction, so that it appears atomically.
 void write_catalogue(kv::KvStore& store, const fs::path& part, const State& state,
                      const std::map<std::string, std::string>& damaged, RestoreReport& report) {
   const std::unique_ptr<kv::WriteTransaction> transaction = store.write();
@@ -106,7 +105,7 @@ void write_catalogue(kv::KvStore& store, const fs::path& part, const State& stat
   for (std::uint32_t slot = 0; slot < recordings;) {
     const RecordingInfo info = catalogue::read_recording(*transaction, slot);
     std::string fault;
-    const auto look = [&](std::string_view kind, std::uint64_t generation) {
+    const auto find_fault = [&](std::string_view kind, std::uint64_t generation) {
       const std::string* name = part_of(state, kind, generation);
       if (name == nullptr) {
         fault = fmt::format("the state has no {} of it", kind);
@@ -114,8 +113,8 @@ void write_catalogue(kv::KvStore& store, const fs::path& part, const State& stat
         fault = fmt::format("{}: {}", at->first, at->second);
       }
     };
-    if (info.motion) look("motion", info.motion->generation);
-    if (info.document != 0 && fault.empty()) look("annotation", info.document);
+    if (info.motion) find_fault("motion", info.motion->generation);
+    if (info.document != 0 && fault.empty()) find_fault("annotation", info.document);
     if (fault.empty()) {
       ++slot;
       continue;
@@ -158,7 +157,7 @@ BackupProgress between(const BackupProgress& whole, double from, double to) {
   return [&whole, from, to](double fraction) { whole(from + fraction * (to - from)); };
 }
 
-/// Removes what restores of this database left that were killed: "NAME.PID.part" of a process that is gone.
+/// Removes what killed restores of this database left: "NAME.PID.part" of a process that no longer runs.
 void drop_left(const fs::path& database) {
   std::error_code error;
   const std::string begin = database.filename().string() + ".";
@@ -173,7 +172,7 @@ void drop_left(const fs::path& database) {
   }
 }
 
-/// A folder that becomes the database when all is in it, and goes where that fails.
+/// A temporary folder that becomes the database when it is complete, and is removed on failure.
 class Unfinished {
  public:
   explicit Unfinished(const fs::path& database) : database_(database), path_(database) {
@@ -190,9 +189,10 @@ class Unfinished {
   const fs::path& path() const noexcept { return path_; }
   void finish() {
     std::error_code error;
-    fs::rename(path_, database_, error);  // over an empty folder too
+    fs::rename(path_, database_, error);  // also replaces an empty folder
     if (error) {
-      throw Error(ErrorCode::io, fmt::format("{}: cannot be put in place: {}", database_.string(), error.message()));
+      throw Error(ErrorCode::io,
+                  fmt::format("{}: cannot be moved into place: {}", database_.string(), error.message()));
     }
     path_.clear();
     const int parent = ::open(fs::absolute(database_).parent_path().c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
@@ -214,7 +214,7 @@ RestoreReport restore(const fs::path& folder, const fs::path& database, const Re
   if (!target.has_filename()) target = target.parent_path();  // "corpus.db/"
   std::error_code error;
   if (fs::exists(target, error) && (!fs::is_directory(target, error) || !fs::is_empty(target, error))) {
-    throw Error(ErrorCode::already_exists, target.string() + ": is there already; name a new database");
+    throw Error(ErrorCode::already_exists, target.string() + ": already exists; name a new database");
   }
   const State state = chosen_state(folder, options.state);
   const std::map<std::string, std::string> damaged =

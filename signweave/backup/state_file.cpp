@@ -18,7 +18,7 @@ constexpr std::string_view kTitle = "signweave backup 1";
   throw Error(ErrorCode::corrupt, fmt::format("{}: {}; restore an older state, or this file from a copy", where, what));
 }
 
-/// The first word of a line, which loses it.
+/// Removes the first word of a line and returns it.
 std::string_view next_word(std::string_view& line) {
   const std::size_t end = std::min(line.find(' '), line.size());
   const std::string_view word = line.substr(0, end);
@@ -80,7 +80,7 @@ State state_of_text(std::string_view text, const std::string& where) {
     if (std::exchange(first, false)) {
       if (line == kTitle) continue;
       throw Error(ErrorCode::unsupported,
-                  fmt::format("{}: no state of a backup that this version of signweave reads", where));
+                  fmt::format("{}: not a backup state that this version of signweave can read", where));
     }
     const std::string_view what = next_word(line);
     if (what == "state") {

@@ -17,18 +17,18 @@ float join_cost(const PlaceCosts& before, std::size_t a, const PlaceCosts& place
                  scale.weights.weights);
 }
 
-/// What leads to each candidate of a place, and from where.
+/// The cost of the best path to each candidate of a place, and its previous candidate.
 struct Reached {
-  std::vector<float> cost;          ///< less `base`
-  std::vector<std::uint32_t> from;  ///< candidate of the place before
+  std::vector<float> cost;          ///< minus `base`
+  std::vector<std::uint32_t> from;  ///< candidate of the previous place
 };
 
 class Forward {
  public:
   explicit Forward(const JoinScale& scale) : scale_(scale) {}
 
-  /// One step on. Costs are told less those of the cheapest, which `base` gathers: so they keep their precision
-  /// however many places lie before.
+  /// Advances one place. Costs are relative to the cheapest, which is accumulated in `base`, so they keep their
+  /// precision for any number of places.
   void step(const PlaceCosts& before, const PlaceCosts& place, const std::vector<float>& cost, Reached& out) {
     const std::size_t count = before.size();
     leaving_.resize(count);
@@ -62,7 +62,7 @@ class Forward {
     std::array<float, kLanes> costs{};
     if (place.joins.empty()) lanes_.compare_with(place.ends->begin(b));
     for (std::size_t at = 0; at < order_.size(); at += kLanes) {
-      if (sorted_[at] + to > least) break;  // so do all that follow, whatever their joins
+      if (sorted_[at] + to > least) break;  // true for all following candidates too, whatever their joins cost
       const std::size_t end = std::min(at + kLanes, order_.size());
       float here = 0;
       if (place.joins.empty()) {
@@ -88,9 +88,9 @@ class Forward {
   }
 
   const JoinScale& scale_;
-  std::vector<float> leaving_;  ///< [candidate before] what leads to it
-  std::vector<float> made_;     ///< and to its end, for a made transition
-  std::vector<float> sorted_;   ///< the same in the order below, whole blocks of them
+  std::vector<float> leaving_;  ///< [previous candidate] path cost to it
+  std::vector<float> made_;     ///< the same including the cost of a generated transition after it
+  std::vector<float> sorted_;   ///< the same in the order below, in whole blocks
   std::vector<std::uint32_t> order_;
   JoinLanes lanes_;
 };
@@ -237,7 +237,7 @@ std::vector<std::size_t> PathAhead::best(bool at_end) const {
 
 std::size_t PathAhead::decide(std::size_t chosen) {
   held_.pop_front();
-  if (!held_.empty()) {  // only what leads on from it counts from now on
+  if (!held_.empty()) {  // only paths through it count from now on
     Held& first = held_.front();
     const auto count = static_cast<std::ptrdiff_t>(first.costs.size());
     const auto row = first.transitions.begin() + static_cast<std::ptrdiff_t>(chosen) * count;

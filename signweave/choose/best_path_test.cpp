@@ -20,7 +20,7 @@ JoinPoint random_point(std::mt19937& random) {
   return point;
 }
 
-/// Candidates anywhere, or all alike (`same`): then every path costs the same.
+/// Random candidates, or identical ones (`same`), for which every path costs the same.
 PlaceCosts random_place(std::mt19937& random, std::size_t count, std::size_t before, bool same) {
   PlaceCosts place;
   std::vector<JoinPoint> begins;
@@ -35,7 +35,7 @@ PlaceCosts random_place(std::mt19937& random, std::size_t count, std::size_t bef
     place.kept.push_back(kept ? static_cast<std::uint32_t>(random() % before) : PlaceCosts::kNone);
   }
   for (std::size_t i = 0; i < before; ++i) place.added_before.push_back(same ? 0 : uniform(random, 0, 0.2f));
-  if (random() % 4 == 0) {  // where not all is known, joins are given
+  if (random() % 4 == 0) {  // if features are unknown, join costs are given
     for (std::size_t i = 0; i < before * count; ++i) place.joins.push_back(same ? 0.5f : uniform(random, 0, 2));
   }
   place.ends = std::make_shared<const JoinEnds>(begins, ends);
@@ -53,7 +53,7 @@ std::vector<PlaceCosts> random_problem(std::mt19937& random, std::size_t places,
   return problem;
 }
 
-/// Every path.
+/// The least cost, by trying every path.
 double least_by_trying(const std::vector<PlaceCosts>& places, const JoinScale& scale) {
   std::vector<std::size_t> chosen(places.size());
   double least = std::numeric_limits<double>::infinity();
@@ -76,14 +76,14 @@ RC_GTEST_PROP(BestPath, CostsWhatTheCheapestOfAllPathsCosts, ()) {
   RC_ASSERT(std::abs(cost - least_by_trying(places, scale)) < 1e-4);
 }
 
-RC_GTEST_PROP(BestPath, LeavesOutNoCandidateThatItSkips, ()) {  // many candidates, so that blocks of them are skipped
+RC_GTEST_PROP(BestPath, SkipsNoBestCandidate, ()) {  // many candidates, so that blocks of them are skipped
   std::mt19937 random(*rc::gen::arbitrary<unsigned>());
   const std::vector<PlaceCosts> places = random_problem(random, 3, 120);
   const JoinScale scale;
   const Path path = best_path(places, scale);
   RC_ASSERT(std::abs(path.total - path_cost(places, path.chosen, scale)) < 1e-4);
   double least = std::numeric_limits<double>::infinity();
-  for (std::size_t b = 0; b < places[1].size(); ++b) {  // through each of the middle ones, its best sides
+  for (std::size_t b = 0; b < places[1].size(); ++b) {  // the best path through each middle candidate
     double left = std::numeric_limits<double>::infinity();
     double right = left;
     for (std::size_t a = 0; a < places[0].size(); ++a) {
@@ -113,7 +113,7 @@ RC_GTEST_PROP(BestPath, NeverTakesADominatedCandidate, ()) {
   PlaceCosts& middle = places[1];
   middle.joins.clear();
   places[2].joins.clear();
-  // A copy of a candidate that costs a little more, put before all others.
+  // A copy of a candidate with slightly higher cost, inserted first.
   const std::size_t original = random() % middle.size();
   std::vector<JoinPoint> begins = {middle.ends->begin(original)};
   std::vector<JoinPoint> ends = {middle.ends->end(original)};
@@ -156,7 +156,7 @@ TEST(PathAheadTest, DecidesAPlaceOnceThreeMoreAreKnown) {
   for (std::size_t i = 0; i < places.size(); ++i) EXPECT_EQ(path.push(places[i]).has_value(), i >= 3) << i;
   EXPECT_EQ(path.finish().size(), 3u);
   EXPECT_TRUE(path.finish().empty());
-  EXPECT_FALSE(path.push(places[0]).has_value());  // anew
+  EXPECT_FALSE(path.push(places[0]).has_value());  // a new utterance
   EXPECT_EQ(path.finish().size(), 1u);
 }
 
@@ -178,14 +178,14 @@ TEST(PathAheadTest, ThreePlacesAheadCostLittleMoreThanAll) {
   EXPECT_LT(ahead_3, ahead_1);
 }
 
-TEST(BestPath, IsAsExactInALongUtterance) {
+TEST(BestPath, StaysExactInALongUtterance) {
   std::mt19937 random(3);
   const std::vector<PlaceCosts> places = random_problem(random, 20'000, 3);
   const Path path = best_path(places, {});
   EXPECT_NEAR(path.total, path_cost(places, path.chosen, {}), 0.05);
 }
 
-TEST(JoinLanes, CostWhatTheTermsSay) {
+TEST(JoinLanes, CostsEqualTheTerms) {
   std::mt19937 random(5);
   std::vector<JoinPoint> begins;
   std::vector<JoinPoint> ends;

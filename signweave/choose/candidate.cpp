@@ -10,26 +10,26 @@
 namespace signweave {
 namespace {
 
-/// Why a sign cannot be signed, or nothing.
+/// The reason why a sign cannot be signed, or an empty string.
 std::string obstacle(const RecordingInfo& info, const Sign& sign) {
   if (!info.motion) return "its recording has no motion";
   const auto stroke = sign.stroke_span();
   if (!stroke) return "it has no stroke";
   const FrameRange frames = frames_of(*stroke, info.clock);
-  if (frames.begin < -1 || frames.end > info.motion->frames + 1) {  // a frame of rounding on either side
+  if (frames.begin < -1 || frames.end > info.motion->frames + 1) {  // allows a frame of rounding on either side
     return fmt::format("its stroke reaches outside the motion, which has {} frames", info.motion->frames);
   }
   return {};
 }
 
-/// The frames of a span, at least one where it lies inside the motion.
+/// The frames of a span; at least one if it is inside the motion.
 FrameRange core_frames(TimeSpan span, const RecordingInfo& info) {
   FrameRange frames = frames_of(span, info.clock);
   if (frames.begin == frames.end) ++frames.end;  // shorter than half a frame
   return clamp(frames, info.motion->frames);
 }
 
-/// The row of a sign of a recording; kNoRow where the table lacks it.
+/// The row of a sign of a recording; kNoRow if the table lacks it.
 RowId row_of(const Segments& segments, std::size_t recording, const Sign& sign) {
   const SegmentTable::RowRange range = segments.tier_rows(static_cast<std::uint32_t>(recording), sign.tier);
   const RowId first = first_row(range, [&](RowId row) { return segments.span(row).begin >= sign.span.begin; });
@@ -41,7 +41,7 @@ RowId row_of(const Segments& segments, std::size_t recording, const Sign& sign) 
   return kNoRow;
 }
 
-/// Fills in which rows its signs are.
+/// Fills in the rows of its signs.
 void find_rows(const Contents& contents, Candidate& candidate) {
   if (candidate.signs.empty()) return;
   candidate.first_row = row_of(contents.segments, candidate.recording, candidate.signs.front());
@@ -112,8 +112,8 @@ Candidate piece_candidate(const Contents& contents, const Place& place) {
 std::vector<RowId> tokens_of(const Contents& contents, std::string_view gloss) {
   const Segments& segments = contents.segments;
   std::vector<RowId> tokens = segments.signs_with(match_form(gloss));
-  // Recordings are numbered by name. Several tiers (two hands) may have the gloss at one time: the row order decides
-  // then.
+  // Recordings are numbered by name. If several tiers (two hands) have the gloss at the same time, the row order
+  // decides.
   std::stable_sort(tokens.begin(), tokens.end(), [&](RowId a, RowId b) {
     return std::pair(segments.recording(a), segments.span(a).begin) <
            std::pair(segments.recording(b), segments.span(b).begin);
@@ -138,7 +138,7 @@ std::optional<Candidate> candidate_of_run(const Contents& contents, std::size_t 
   run.recording = recording;
   run.core = core_frames({first->stroke_span()->begin, last->stroke_span()->end}, info);
   run.whole = clamp(frames_of({first->span.begin, last->span.end}, info.clock), info.motion->frames);
-  // Phases that reach outside their sign must not make the whole smaller than its core.
+  // Phases that extend beyond their sign must not make the whole smaller than its core.
   run.whole = {std::min(run.whole.begin, run.core.begin), std::max(run.whole.end, run.core.end)};
   if (run.core.empty()) return std::nullopt;
   run.signs.assign(first, last + 1);

@@ -10,7 +10,7 @@
 namespace signweave {
 namespace {
 
-/// Frames of one recording's transitions that lie inside its motion, with a frame on both sides.
+/// The transitions of one recording that are inside its motion, with a frame on both sides.
 struct Found {
   std::uint32_t recording = 0;
   FrameRange frames;
@@ -30,7 +30,7 @@ std::vector<Found> transitions_of(const Contents& contents, std::uint32_t record
   return found;
 }
 
-/// At most `most` of them, evenly spread.
+/// Keeps at most `most`, evenly spread.
 template <class Value>
 std::vector<Value> spread(const std::vector<Value>& all, std::size_t most) {
   if (all.size() <= most) return all;
@@ -39,7 +39,7 @@ std::vector<Value> spread(const std::vector<Value>& all, std::size_t most) {
   return some;
 }
 
-/// Reads a transition with what lies beside it, and adds it and its middle half. False where neither was kept.
+/// Reads a transition with its context, and adds it and its middle half. Returns false if neither was added.
 bool add(const MotionSource& source, const JointGroups& groups, FrameRange frames, Motion& memory,
          SpanCollector& collector) {
   const auto context = static_cast<std::int64_t>(std::ceil(kContext.count() * source.rate().hertz())) + 4;
@@ -88,7 +88,7 @@ CapturedSpans captured_spans(const Snapshot& snapshot, const Skeleton& skeleton,
     std::ranges::copy(transitions_of(contents, recording), std::back_inserter(all));
   }
   Motion memory;
-  std::unique_ptr<MotionSource> source;  // of the recording before
+  std::unique_ptr<MotionSource> source;  // of the previous recording
   std::uint32_t of = 0;
   for (const Found& one : spread(all, kMostSpanTransitions)) {
     try {

@@ -11,24 +11,24 @@
 
 namespace signweave {
 
-/// No more of a corpus is looked at for captured spans: evenly spread, so that it costs the same in a large one.
+/// Limits on the captured spans read from a corpus, evenly spread, so that the cost is bounded in a large one.
 inline constexpr std::size_t kMostSpanRecordings = 24;
 inline constexpr std::size_t kMostSpanTransitions = 400;
-/// An annotated transition that lasts longer hides more than one movement. (ours)
+/// Longer annotated transitions usually contain more than one movement and are skipped. (ours)
 inline constexpr Seconds kLongestSpan{3.0};
 
-/// What a method needs of a corpus.
+/// The data that a method needs from a corpus.
 struct CapturedSpans {
-  std::shared_ptr<const TransitionModel> model;  ///< the default one, with these spans and what movements taught
-  std::size_t transitions = 0;                   ///< that they are of
+  std::shared_ptr<const TransitionModel> model;  ///< the default model with these spans and the learned residuals
+  std::size_t transitions = 0;                   ///< number of transitions that the spans come from
 };
 
-/// The annotated transitions (see transitions_in) of recordings with the same joints as `skeleton`, whose groups these
-/// are: each from the last stroke frame of one sign to the first of the next, and once more its middle half, for the
-/// gaps that are left where some of both sides is kept. Read are their frames and kContext on both sides. A recording
-/// that is damaged is left out, and so is the one named `without`: a method that is judged by a recording must not have
-/// seen it. Beside them what movements taught (Learned::residuals), unless one is named; that alone where `needs` asks
-/// for no spans.
+/// Collects the annotated transitions (see transitions_in) of recordings with the same joints as `skeleton`, whose
+/// groups are `groups`: each from the last stroke frame of one sign to the first of the next, and additionally its
+/// middle half, for the gaps that remain if parts of both sides are kept. Their frames and kContext on both sides are
+/// read. Damaged recordings are skipped, and so is `without`: a method that is evaluated on a recording must not have
+/// seen it. Adds the learned residuals (Learned::residuals) unless `without` is given; only those if `needs` requests
+/// no spans.
 CapturedSpans captured_spans(const Snapshot& snapshot, const Skeleton& skeleton, const JointGroups& groups, Needs needs,
                              std::string_view without = {});
 

@@ -37,11 +37,11 @@ FrameRange standing_frames(const PlacedClip& placed) {
   return {placed.core, std::min(placed.core_end(), placed.core + kStandingFrames)};
 }
 
-/// Where the reference's signer stands, for a clip of that number.
+/// The standing of the reference's signer, for clip number `asking`.
 Standing home_of(const Plan& plan, const Motion& fetched, std::size_t reference, std::size_t asking) {
   const PlacedClip& placed = plan.placed[reference];
   if (reference <= asking) return standing_over(fetched, standing_frames(placed));
-  // Of a clip that comes later, from its frames as they were captured.
+  // For a later clip, from its frames as captured.
   const MotionClip& clip = *placed.captured;
   Motion core;
   core.reset(clip.source->skeleton(), clip.source->rate(), clip.core.size());
@@ -85,7 +85,7 @@ Plan plan_for(const std::vector<MotionClip>& clips, const JunctionSettings& sett
 }  // namespace
 
 SignerRig signer_rig_of(const MotionClip& clip) {
-  // The measures are medians over some frames of a motion: those of the core serve.
+  // The measures are medians over some frames of a motion, so frames of the core suffice.
   const MotionSource& source = *clip.source;
   Motion core;
   core.reset(source.skeleton(), source.rate(), std::min(clip.core.size(), kBodyFrames));

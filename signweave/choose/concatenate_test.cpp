@@ -15,7 +15,7 @@ using testing_motion::clip;
 using testing_motion::motion_of;
 using testing_motion::small_skeleton;
 
-/// Every rule below holds for each method.
+/// Every test below runs for each method.
 class Concatenate : public testing::TestWithParam<std::string> {
  protected:
   ConcatenateOptions options(Milliseconds duration = 500ms) const {
@@ -27,7 +27,7 @@ bool same_up_to_sign(const Eigen::Quaternionf& a, const Eigen::Quaternionf& b) {
   return a.coeffs() == b.coeffs() || a.coeffs() == -b.coeffs();
 }
 
-TEST_P(Concatenate, StrokesKeepTheirBits) {
+TEST_P(Concatenate, StrokesAreBitIdentical) {
   const std::vector<MotionClip> clips = {clip("A", 0.1f, 20, 40, 25), clip("B", 0.8f, 30, 33, 20),
                                          clip("C", 1.7f, 15, 50, 40)};
   const Synthesis made = concatenate(clips, options());
@@ -44,7 +44,7 @@ TEST_P(Concatenate, StrokesKeepTheirBits) {
   }
 }
 
-TEST_P(Concatenate, TransitionsLastAsLongAsAsked) {
+TEST_P(Concatenate, TransitionsHaveTheRequestedDuration) {
   const std::vector<MotionClip> clips = {clip("A", 0.1f, 20, 40, 25), clip("B", 0.8f, 30, 33, 20)};
   for (const Milliseconds duration : {10ms, 200ms, 735ms, 3'000ms}) {
     const Synthesis made = concatenate(clips, options(duration));
@@ -61,7 +61,7 @@ TEST_P(Concatenate, APauseLengthensTheTransition) {
   EXPECT_EQ(concatenate(clips, options()).junctions[0].frames.size(), 85);
 }
 
-TEST_P(Concatenate, EveryFrameKnowsWhereItComesFrom) {
+TEST_P(Concatenate, EveryFrameHasItsSource) {
   const std::vector<MotionClip> clips = {clip("A", 0.1f, 20, 40, 25), clip("B", 0.8f, 30, 33, 20, {50, 1})};
   const Synthesis made = concatenate(clips, options());
   ASSERT_EQ(made.sources.size(), static_cast<std::size_t>(made.motion.frame_count()));
@@ -101,7 +101,7 @@ TEST_P(Concatenate, NothingJumps) {
   }
 }
 
-TEST_P(Concatenate, MissingPhasesAreNoFault) {
+TEST_P(Concatenate, MissingPhasesAreNoError) {
   const std::vector<MotionClip> clips = {clip("A", 0.1f, 0, 40, 0), clip("B", 0.8f, 0, 1, 0), clip("C", 1.1f, 0, 5, 0)};
   const Synthesis made = concatenate(clips, options());
   EXPECT_EQ(made.motion.frame_count(), 40 + 50 + 1 + 50 + 5);
@@ -159,7 +159,7 @@ TEST_P(Concatenate, ManySignsDoNotDrift) {
   }
 }
 
-TEST_P(Concatenate, AlignmentCanBeLeftOut) {
+TEST_P(Concatenate, AlignmentCanBeDisabled) {
   const std::vector<MotionClip> clips = {clip("A", 0.1f, 20, 40, 25), clip("B", 0.8f, 30, 33, 20)};
   ConcatenateOptions none = options();
   none.alignment = Alignment::none;
@@ -170,14 +170,14 @@ TEST_P(Concatenate, AlignmentCanBeLeftOut) {
   EXPECT_EQ(kept.translations[0], captured.translations[0]);
 }
 
-TEST_P(Concatenate, OffsetsMayDifferAndTheFirstAreTaken) {
+TEST_P(Concatenate, OffsetsMayDifferAndTheFirstAreUsed) {
   const std::vector<MotionClip> clips = {clip("A", 0.1f, 20, 40, 25, {100, 1}, small_skeleton(0.3f)),
                                          clip("B", 0.8f, 30, 33, 20, {100, 1}, small_skeleton(0.35f))};
   const Synthesis made = concatenate(clips, options());
   EXPECT_FLOAT_EQ(made.motion.skeleton().joint(2).offset.x(), 0.3f);
 }
 
-TEST_P(Concatenate, OtherJointsAreRefusedByName) {
+TEST_P(Concatenate, OtherJointsAreRejectedByName) {
   const auto other = std::make_shared<const Skeleton>(std::vector<Joint>{{"Hips", kNoJoint, {0, 1, 0}, true},
                                                                          {"Spine", 0, {0, 0.3f, 0}, false},
                                                                          {"LeftArm", 1, {0.3f, 0, 0}, false},
@@ -192,7 +192,7 @@ TEST_P(Concatenate, OtherJointsAreRefusedByName) {
   }
 }
 
-TEST_P(Concatenate, SignsAreFilledByTheirPhases) {
+TEST_P(Concatenate, PhasesCoverTheirSigns) {
   const std::vector<MotionClip> clips = {clip("A", 0.1f, 20, 40, 25), clip("B", 0.8f, 30, 33, 20),
                                          clip("C", 1.7f, 0, 50, 0)};
   const Synthesis made = concatenate(clips, options());
@@ -212,8 +212,8 @@ TEST_P(Concatenate, SignsAreFilledByTheirPhases) {
   EXPECT_EQ(made.signs[0].recorded, clips[0].signs[0].span);
 }
 
-TEST(Crossfading, DoesNotJumpWhereTheSidesPassHalfATurnApart) {
-  // One joint turns from 70 to 110 degrees on one side and from -70 to -110 on the other: 140 to 220 degrees apart.
+TEST(Crossfading, DoesNotJumpIfTheSidesPassHalfATurnApart) {
+  // One joint rotates from 70 to 110 degrees on one side and from -70 to -110 on the other: 140 to 220 degrees apart.
   const auto turning = [](const std::string& name, float sense) {
     MotionClip result = clip(name, 0.0f, 60, 20, 60);
     Motion motion = motion_of(result);
@@ -248,7 +248,7 @@ TEST_P(Concatenate, HoldsAreKeptAsAnnotated) {
   const Synthesis made = concatenate(clips, options());
   const std::vector<Phase>& phases = made.signs[0].sign.phases;
   const std::int64_t kept = std::min<std::int64_t>(10, made.junctions[0].cut.kept_after());
-  if (kept == 0) {  // the cut was chosen before it
+  if (kept == 0) {  // the cut is before it
     ASSERT_EQ(phases.size(), 3u);
     EXPECT_EQ(phases[2].kind, PhaseKind::retraction);
     return;
@@ -260,16 +260,16 @@ TEST_P(Concatenate, HoldsAreKeptAsAnnotated) {
   EXPECT_EQ(phases[3].span.end, made.signs[0].sign.span.end);
 }
 
-TEST_P(Concatenate, APieceThatIsCutThroughASignSaysNothingFalseOfIt) {
+TEST_P(Concatenate, APieceCutThroughASignKeepsItsAnnotation) {
   std::vector<MotionClip> clips = {clip("A", 0.1f, 20, 100, 25), clip("B", 0.8f, 30, 33, 20)};
-  Sign& sign = clips[0].signs[0];  // its stroke ends long before the piece does
+  Sign& sign = clips[0].signs[0];  // its stroke ends long before the piece
   sign.phases[1].span.end = sign.phases[1].span.begin + 400ms;
   sign.phases.back().span.begin = sign.phases[1].span.end;
   const Synthesis made = concatenate(clips, options());
   EXPECT_EQ(made.signs[0].sign.stroke_span()->duration(), 400ms);
 }
 
-TEST_P(Concatenate, TheReferenceGivesSkeletonAndStanding) {
+TEST_P(Concatenate, TheReferenceDefinesSkeletonAndStanding) {
   const std::vector<MotionClip> clips = {clip("A", 0.1f, 20, 40, 25, {100, 1}, small_skeleton(0.3f)),
                                          clip("B", 0.8f, 30, 33, 20, {100, 1}, small_skeleton(0.35f))};
   ConcatenateOptions second = options();
@@ -280,7 +280,7 @@ TEST_P(Concatenate, TheReferenceGivesSkeletonAndStanding) {
             motion_of(clips[1]).pose(clips[1].core.begin).translations[0]);
 }
 
-/// The clip with a face track that holds one value.
+/// The clip with a face track of constant value.
 MotionClip with_track(MotionClip clip, const std::string& name, float value) {
   Motion motion = motion_of(clip);
   motion.add_track({name, std::vector<float>(static_cast<std::size_t>(motion.frame_count()), value)});
@@ -288,7 +288,7 @@ MotionClip with_track(MotionClip clip, const std::string& name, float value) {
   return clip;
 }
 
-TEST_P(Concatenate, ScalarTracksComeAlong) {
+TEST_P(Concatenate, ScalarTracksArePreserved) {
   const std::vector<MotionClip> clips = {with_track(clip("A", 0.1f, 20, 40, 25), "jawOpen", 0.8f),
                                          with_track(clip("B", 0.8f, 30, 33, 20, {50, 1}), "browInnerUp", 0.5f)};
   const Synthesis made = concatenate(clips, options());
@@ -328,7 +328,7 @@ TEST_P(Concatenate, SignsOfQuaternionsInASourceDoNotMatter) {
   }
 }
 
-TEST_P(Concatenate, RatesThatAskForATerabyteAreRefused) {
+TEST_P(Concatenate, RatesThatNeedATerabyteAreRejected) {
   const std::vector<MotionClip> clips = {clip("slow", 0.1f, 2, 4, 2, {1, 10'000}),
                                          clip("fast", 0.8f, 2, 4, 2, {1'000'000, 1})};
   try {
@@ -339,7 +339,7 @@ TEST_P(Concatenate, RatesThatAskForATerabyteAreRefused) {
   }
 }
 
-TEST_P(Concatenate, AStrokeShorterThanAFrameHasAMillisecondAtLeast) {
+TEST_P(Concatenate, AStrokeShorterThanAFrameHasAtLeastAMillisecond) {
   MotionClip one = clip("A", 0.1f, 20, 40, 25, {30, 1});
   const Milliseconds begin = one.signs[0].phases[1].span.begin;
   one.signs[0].phases[1].span.end = begin + 8ms;
@@ -357,7 +357,7 @@ TEST_P(Concatenate, AStrokeShorterThanAFrameHasAMillisecondAtLeast) {
   EXPECT_GE(stroke->duration(), 1ms);
 }
 
-TEST_P(Concatenate, TheMemoryOfAnOlderResultIsUsedAgain) {
+TEST_P(Concatenate, TheMemoryOfAnOlderResultIsReused) {
   const std::vector<MotionClip> clips = {clip("A", 0.1f, 20, 40, 25), clip("B", 0.8f, 30, 33, 20)};
   Synthesis first = concatenate(clips, options());
   const auto* const memory = first.motion.rotations().data();

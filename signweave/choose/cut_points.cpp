@@ -9,22 +9,22 @@
 namespace signweave {
 namespace {
 
-/// Joints that reach less far say little of where a hand is.
+/// Joints with a smaller reach have little influence on a hand's position.
 constexpr float kLeastReach = 0.04f;  // metres
 constexpr Seconds kVelocityContext{0.05};
 constexpr Seconds kLeastGap{0.1};
-/// In which a hand at rest takes up where its next preparation begins.
+/// Time in which a hand at rest moves to the begin of its next preparation.
 constexpr Seconds kSettling{0.3};
-/// Less of a retraction or preparation is a twitch.
+/// Minimum kept part of a retraction or preparation; less looks like a twitch.
 constexpr Seconds kLeastKept{0.1};
-/// Cut points lie no nearer together.
+/// Minimum distance between cut points.
 constexpr Seconds kLeastStep{0.03};
 
 std::int64_t frames_in(Seconds time, double hertz) noexcept {
   return std::max<std::int64_t>(1, std::llround(time.count() * hertz));
 }
 
-/// How far from each joint the farthest point that it carries lies in the rest pose, metres.
+/// The distance from each joint to its farthest descendant point in the rest pose, metres.
 std::vector<float> reaches_of(const Skeleton& skeleton) {
   const Pose rest(skeleton);
   const ModelPose places = to_model_space(skeleton, rest.view());
@@ -42,10 +42,10 @@ std::vector<float> reaches_of(const Skeleton& skeleton) {
   return reaches;
 }
 
-/// ∫ |acceleration|² of the cubic over `seconds`, from d = way, and the products of way and velocities.
-double effort_of(double way_way, double way_speeds, double speeds, double seconds) noexcept {
+/// ∫ |acceleration|² of the cubic over `seconds`, from the squared path and the inner products of path and velocities.
+double effort_of(double path_square, double path_speeds, double speeds, double seconds) noexcept {
   const double inverse = 1.0 / seconds;
-  return std::max(0.0, 12.0 * way_way * inverse * inverse * inverse - 12.0 * way_speeds * inverse * inverse +
+  return std::max(0.0, 12.0 * path_square * inverse * inverse * inverse - 12.0 * path_speeds * inverse * inverse +
                            4.0 * speeds * inverse);
 }
 
@@ -72,7 +72,7 @@ void CutChooser::look(const std::vector<Weighted>& joints, const CutSide& side, 
   const auto count = static_cast<Eigen::Index>(out.kept.size());
   const auto numbers = static_cast<Eigen::Index>(4 * joints.size());
   out.states.resize(numbers, 2 * count);
-  // Backward from a cut on the left, forward from one on the right: only what is kept is looked at.
+  // Backwards from a cut on the left, forwards from one on the right: only kept frames are read.
   const std::int64_t context = 2 * frames_in(0.5 * kVelocityContext, hertz);
   for (Eigen::Index point = 0; point < count; ++point) {
     const std::int64_t at = side.stroke + direction * out.kept[static_cast<std::size_t>(point)];
@@ -80,12 +80,12 @@ void CutChooser::look(const std::vector<Weighted>& joints, const CutSide& side, 
     const PoseView pose = side.frames.pose(at);
     const PoseView other = side.frames.pose(away);
     const float per_second = away == at ? 0.0f : static_cast<float>(hertz / static_cast<double>(at - away));
-    // The parabola through three frames tells the velocity at the cut, not that half of the context ago.
+    // The parabola through three frames gives the velocity at the cut itself, not half of the context earlier.
     const std::int64_t half = (at + away) / 2;
     const bool bent = (at - away) % 2 == 0 && away != at;
     const PoseView middle = side.frames.pose(half);
     for (std::size_t i = 0; i < joints.size(); ++i) {
-      // A turn by a small angle moves a unit quaternion by half of it.
+      // A rotation by a small angle moves a unit quaternion by half of it.
       const float weight = 2.0f * joints[i].reach * signs_[i];
       const Eigen::Vector4f place = weight * pose.rotations[joints[i].joint].coeffs();
       const Eigen::Vector4f from = weight * other.rotations[joints[i].joint].coeffs();
@@ -96,10 +96,11 @@ void CutChooser::look(const std::vector<Weighted>& joints, const CutSide& side, 
                : Eigen::Vector4f(per_second * (place - from));
     }
   }
-  out.way.assign(static_cast<std::size_t>(count), 0.0);
+  out.path.assign(static_cast<std::size_t>(count), 0.0);
   for (Eigen::Index point = 1; point < count; ++point) {
-    const float way = (out.states.col(point) - out.states.col(point - 1)).norm();
-    out.way[static_cast<std::size_t>(point)] = out.way[static_cast<std::size_t>(point - 1)] + static_cast<double>(way);
+    const float path = (out.states.col(point) - out.states.col(point - 1)).norm();
+    out.path[static_cast<std::size_t>(point)] =
+        out.path[static_cast<std::size_t>(point - 1)] + static_cast<double>(path);
   }
 }
 
@@ -113,7 +114,7 @@ void CutChooser::look_at_both(const std::vector<Weighted>& joints, const Transit
     if (last.rotations[joints[i].joint].dot(first.rotations[joints[i].joint]) < 0) signs_[i] = -1.0f;
   }
   look(joints, to, -1, most_before, room, right_);
-  // Relative to one pose, or small differences would drown in large numbers.
+  // Relative to one pose, to avoid cancellation.
   const Eigen::VectorXf origin = left_.states.col(0);
   left_.states.leftCols(std::ssize(left_.kept)).colwise() -= origin;
   right_.states.leftCols(std::ssize(right_.kept)).colwise() -= origin;
@@ -124,7 +125,7 @@ bool CutChooser::meets(const std::vector<Weighted>& joints, const TransitionRoom
   look_at_both(joints, room, from, to, cut.retraction_frames, cut.preparation_frames);
   const float between =
       (right_.states.col(std::ssize(right_.kept) - 1) - left_.states.col(std::ssize(left_.kept) - 1)).norm();
-  return static_cast<double>(between) < 0.5 * (left_.way.back() + right_.way.back());
+  return static_cast<double>(between) < 0.5 * (left_.path.back() + right_.path.back());
 }
 
 TransitionCut CutChooser::choose(const std::vector<Weighted>& joints, const TransitionRoom& room, const CutSide& from,
@@ -138,7 +139,7 @@ TransitionCut CutChooser::choose(const std::vector<Weighted>& joints, const Tran
 
   TransitionCut best{.length = room.length, .blend_frames = frames_in(Seconds(0.1), room.frames_per_second)};
   double best_cost = std::numeric_limits<double>::infinity();
-  // Ways add up over joints, and so does their noise.
+  // Paths are summed over joints, and so is their noise.
   const double still = kStillness * std::sqrt(std::max(1.0, static_cast<double>(joints.size())));
   const double straight = static_cast<double>((right_.states.col(0) - left_.states.col(0)).norm());
   ends_.clear();
@@ -157,27 +158,28 @@ TransitionCut CutChooser::choose(const std::vector<Weighted>& joints, const Tran
       const std::int64_t kept = left_.kept[static_cast<std::size_t>(i)] + right_.kept[static_cast<std::size_t>(j)];
       if (kept > most) break;
       const Squares& end = ends_[static_cast<std::size_t>(j)];
-      const double way_way = std::max(0.0, aa + static_cast<double>(end.place - 2.0f * products_(i, j)));
-      const double way = std::sqrt(way_way);
+      const double path_square = std::max(0.0, aa + static_cast<double>(end.place - 2.0f * products_(i, j)));
+      const double path = std::sqrt(path_square);
       const double seconds = static_cast<double>(room.length - kept + 1) / room.frames_per_second;
       const double share = static_cast<double>(room.length - kept) / static_cast<double>(room.length);
       const double detour =
-          (left_.way[static_cast<std::size_t>(i)] + way + right_.way[static_cast<std::size_t>(j)] - straight) /
+          (left_.path[static_cast<std::size_t>(i)] + path + right_.path[static_cast<std::size_t>(j)] - straight) /
           (straight + still);
       if (detour + kMaking * share >= best_cost) continue;  // the other terms are never below 0
-      const double way_speeds = products_(lefts + i, j) + end.both - a_va - products_(i, rights + j);
+      const double path_speeds = products_(lefts + i, j) + end.both - a_va - products_(i, rights + j);
       const double va_vb = products_(lefts + i, rights + j);
       const double vb_vb = end.speed;
-      const double from_rest = 12.0 * std::max(way_way, still * still) / (seconds * seconds * seconds);
-      const double turning = std::log1p(effort_of(way_way, way_speeds, va_va + va_vb + vb_vb, seconds) / from_rest);
-      const double asked = std::pow(way / (straight + still), kHurryPower);
+      const double from_rest = 12.0 * std::max(path_square, still * still) / (seconds * seconds * seconds);
+      const double turning =
+          std::log1p(effort_of(path_square, path_speeds, va_va + va_vb + vb_vb, seconds) / from_rest);
+      const double asked = std::pow(path / (straight + still), kHurryPower);
       const double hurry = std::log(std::max(1.0, asked / share));
       const double cost = detour + kTurning * turning + hurry + kMaking * share;
       if (cost >= best_cost) continue;
       best_cost = cost;
       best.retraction_frames = left_.kept[static_cast<std::size_t>(i)];
       best.preparation_frames = right_.kept[static_cast<std::size_t>(j)];
-      best.waits = way_way < kWaitingWay * kWaitingWay && va_va < kWaitingSpeed * kWaitingSpeed &&
+      best.waits = path_square < kWaitingPath * kWaitingPath && va_va < kWaitingSpeed * kWaitingSpeed &&
                    vb_vb < kWaitingSpeed * kWaitingSpeed;
     }
   }
@@ -190,12 +192,12 @@ TransitionCuts CutChooser::choose(const TransitionRoom& room, const CutSide& fro
     const TransitionCut rest = cut_with_gap(room);
     if (room.pause && meets(joints_[part], room, rest, from, to)) {
       cuts[part] = rest;
-      // At rest it is still, but for the way that is left between the two rests.
+      // At rest it is still, except for the remaining distance between the two rest poses.
       const std::int64_t settling = frames_in(kSettling, room.frames_per_second);
       cuts[part].pause_frames = std::clamp<std::int64_t>(rest.gap() - settling, 0, room.pause_frames);
       continue;
     }
-    // The rest moves as if there were no pause, and waits for it.
+    // The other parts move as if there were no pause, and wait for it.
     TransitionRoom moving = room;
     moving.length = std::max<std::int64_t>(1, room.length - room.pause_frames);
     cuts[part] = choose(joints_[part], moving, from, to);

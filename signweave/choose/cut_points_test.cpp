@@ -32,8 +32,8 @@ std::size_t joint(const char* name) {
   return static_cast<std::size_t>(*person()->find(name));
 }
 
-/// A sign whose hands are lifted by so many radians before, in and after its stroke; they go over within preparation
-/// and retraction with the smoothness of a minimum jerk.
+/// A sign whose hands are raised by given angles (radians) before, in and after its stroke, with minimum-jerk movements
+/// in preparation and retraction.
 struct Lift {
   float before = 0;
   float stroke = 0;
@@ -101,8 +101,8 @@ RC_GTEST_PROP(CutPoints, ACutHasTheLengthAskedForAndKeepsNoMoreThanThereIs, ()) 
   }
 }
 
-TEST(CutPoints, AHandThatIsWhereItIsNeededDoesNotGoDownAndComeUpAgain) {
-  // The right hand signs on at another height; the left is held up by both signs, and rests before and after.
+TEST(CutPoints, AHandAlreadyInPositionDoesNotGoDownAndUp) {
+  // The right hand continues at another height; the left is raised in both signs, and at rest before and after.
   const MotionClip a = lifted("A", {0, 1.0f, 0}, {0, 0.6f, 0});
   const MotionClip b = lifted("B", {0, 1.0f, 0}, {0, 1.4f, 0});
   for (const GapMethod* method : methods_for_signing()) {
@@ -119,13 +119,13 @@ TEST(CutPoints, AHandThatIsWhereItIsNeededDoesNotGoDownAndComeUpAgain) {
       EXPECT_LT((now.positions[joint("LeftHand")] - before.positions[joint("LeftHand")]).norm(), 0.001f)
           << method->name << ' ' << frame;
     }
-    // The other one moves, of course.
+    // The other hand moves.
     EXPECT_GT((now.positions[joint("RightHand")] - before.positions[joint("RightHand")]).norm(), 0.1f);
   }
 }
 
-TEST(CutPoints, ARetractionThatLeadsOnIsKept) {
-  // Both were captured on the way to where the other is: A's hands go up after it, B's come from below.
+TEST(CutPoints, ARetractionTowardsTheNextStrokeIsKept) {
+  // Both were captured moving towards the other: A's hands go up after it, B's come from below.
   const MotionClip a = lifted("A", {0, 0.2f, 0.6f}, {0, 0.2f, 0.6f});
   const MotionClip b = lifted("B", {0.6f, 1.0f, 1.0f}, {0.6f, 1.0f, 1.0f});
   const TransitionCuts cuts = join({a, b}, *find_gap_method("gap")).junctions[0].cuts;
@@ -134,7 +134,7 @@ TEST(CutPoints, ARetractionThatLeadsOnIsKept) {
   }
 }
 
-TEST(CutPoints, ARetractionThatLeadsElsewhereIsNot) {
+TEST(CutPoints, ARetractionAwayFromTheNextStrokeIsNotKept) {
   const MotionClip a = lifted("A", {0, 0.6f, -0.4f}, {0, 0.6f, -0.4f});
   const MotionClip b = lifted("B", {-0.4f, 1.2f, 0}, {-0.4f, 1.2f, 0});
   const TransitionCuts cuts = join({a, b}, *find_gap_method("gap")).junctions[0].cuts;
@@ -145,8 +145,8 @@ TEST(CutPoints, ARetractionThatLeadsElsewhereIsNot) {
   }
 }
 
-TEST(CutPoints, EachHandHasItsOwn) {
-  // The left hand's retraction leads on, the right hand's leads down.
+TEST(CutPoints, EachHandHasItsOwnCutPoints) {
+  // The left hand's retraction leads to the next stroke, the right hand's leads down.
   const MotionClip a = lifted("A", {0, 0.2f, 0.7f}, {0, 0.6f, -0.4f});
   const MotionClip b = lifted("B", {-0.6f, 1.0f, 0}, {-0.4f, 1.2f, 0});
   const Synthesis made = join({a, b}, *find_gap_method("gap"));
@@ -154,7 +154,7 @@ TEST(CutPoints, EachHandHasItsOwn) {
   const TransitionCut& left = junction.cuts[static_cast<std::size_t>(Timed::left)];
   const TransitionCut& right = junction.cuts[static_cast<std::size_t>(Timed::right)];
   ASSERT_GT(left.kept_after(), right.kept_after());
-  // What the left hand keeps is as captured, while the right hand's frames are made, and no recording is named.
+  // The left hand's kept frames are as captured while the right hand's are generated, so no recording is named.
   for (std::int64_t k = right.kept_after(); k < left.kept_after(); ++k) {
     const std::int64_t frame = junction.frames.begin + k;
     const Eigen::Quaternionf& captured = motion_of(a).pose(a.core.end + k).rotations[joint("LeftArm")];
@@ -163,15 +163,15 @@ TEST(CutPoints, EachHandHasItsOwn) {
   }
 }
 
-TEST(CutPoints, BothSidesMayBeKeptAtOneMomentByDifferentParts) {
-  // The left hand goes on as after A for long, the right hand comes as before B for long.
+TEST(CutPoints, DifferentPartsMayShowBothSidesAtTheSameTime) {
+  // The left hand continues as after A for long, the right hand moves as before B for long.
   const MotionClip a = lifted("A", {0, 0.0f, 0.9f}, {0, 0.6f, -0.6f}, 40, 30, 45);
   const MotionClip b = lifted("B", {-1.0f, 1.0f, 1.0f}, {0.6f, 1.6f, 0}, 45, 30, 40);
   const Synthesis made = join({a, b}, *find_gap_method("gap"));
   const Junction& junction = made.junctions[0];
   const TransitionCut& left = junction.cuts[static_cast<std::size_t>(Timed::left)];
   const TransitionCut& right = junction.cuts[static_cast<std::size_t>(Timed::right)];
-  ASSERT_GT(left.kept_after() + right.kept_before(), junction.frames.size()) << "the case that is meant";
+  ASSERT_GT(left.kept_after() + right.kept_before(), junction.frames.size()) << "the intended case";
   for (std::int64_t k = 0; k < left.kept_after(); ++k) {
     const Eigen::Quaternionf& captured = motion_of(a).pose(a.core.end + k).rotations[joint("LeftArm")];
     EXPECT_LT(angle(made.motion.pose(junction.frames.begin + k).rotations[joint("LeftArm")], captured), 1e-6) << k;
@@ -189,8 +189,8 @@ TEST(CutPoints, BothSidesMayBeKeptAtOneMomentByDifferentParts) {
   }
 }
 
-TEST(CutPoints, InAPauseTheHandsGoTowardsRestAsCaptured) {
-  // The left hand rests in A; where B is from, it came down from another sign.
+TEST(CutPoints, InAPauseTheHandsMoveToRestAsCaptured) {
+  // The left hand rests in A; in B's recording it came down from another sign.
   MotionClip a = lifted("A", {0, 0, 0}, {0, 0.6f, 0});
   MotionClip b = lifted("B", {1.0f, 0.1f, 0}, {0, 1.4f, 0});
   b.pause_before = 800ms;

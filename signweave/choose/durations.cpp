@@ -9,7 +9,7 @@ DurationFit durations_of(const Contents& contents, const semantic_db::Learned& l
   if (model.fitted) fit = learned.durations;
   fit.count = stats.count;
   if (model.fitted && stats.inferred && 2 * stats.count < learned.unphased_signs) {
-    // Most of them touch: the few gaps are pauses, and tell nothing of transitions.
+    // Most of them touch, so the few gaps are pauses and say nothing about transitions.
     fit.count = 0;
     fit.mean = kUnphasedTransition;
     return fit;

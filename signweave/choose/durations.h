@@ -9,24 +9,24 @@
 
 namespace signweave {
 
-/// How long transitions last.
+/// Options for the duration of transitions.
 struct DurationModel {
-  /// Given by the user: the same for all.
+  /// Set by the user: the same for all.
   std::optional<Milliseconds> fixed;
-  /// Where it is not given: told from what the hands have to do, where that tells more than the mean of the corpus.
-  /// False: the mean (the paper, section 5.1).
+  /// If `fixed` is not set: predict it from the movement of the hands, if that predicts better than the corpus mean.
+  /// False: use the mean (the paper, section 5.1).
   bool fitted = true;
 };
 
-/// For a corpus in which no transition was measured: half a second, reported wherever it is used. (ours)
+/// Used for a corpus without measured transitions, and reported whenever it is used. (ours)
 inline constexpr Milliseconds kUnmeasuredTransition{500};
 
-/// The same for a corpus whose signs have no phases: they hold their own transitions, and what lies between them is
-/// short (206 ms on average in continuous DGS). (ours)
+/// The same for a corpus whose signs have no phases: signs then contain their transitions, and the gaps between them
+/// are short (206 ms on average in continuous DGS). (ours)
 inline constexpr Milliseconds kUnphasedTransition{200};
 
-/// What a model tells for a corpus. The mean is that of all its transitions (see TransitionStats); of inferred ones a
-/// model that may be fitted takes the median, for some of them are pauses. Costs the same in any corpus.
+/// The durations for a corpus. The mean is that of all its transitions (see TransitionStats); for inferred transitions
+/// a fitted model uses the median, because some of them are pauses. The cost does not depend on the corpus's size.
 DurationFit durations_of(const Contents& contents, const semantic_db::Learned& learned, const DurationModel& model);
 
 }  // namespace signweave

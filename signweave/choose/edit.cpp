@@ -136,7 +136,7 @@ std::vector<Choice> choices_for(const Contents& contents, std::string_view recor
       const bool closes = i + 1 == items.size() && item.last + 1 == signs.size();
       std::optional<Candidate> candidate = candidate_of_run(contents, index, run);
       if (!candidate && (opens || closes)) {
-        // Nothing but signs without stroke at an end of the recording: their frames stay, as a clip of their own.
+        // Only signs without stroke at an end of the recording: their frames are kept as a separate clip.
         const FrameRange frames = frames_of({run.front().span.begin, run.back().span.end}, info.clock);
         const FrameRange inside =
             clamp({opens ? 0 : frames.begin, closes ? info.motion->frames : frames.end}, info.motion->frames);
@@ -148,11 +148,11 @@ std::vector<Choice> choices_for(const Contents& contents, std::string_view recor
                                 "inside the motion",
                                 from, to, info.name));
       }
-      // What lies before the first sign and after the last stays as captured.
+      // The motion before the first sign and after the last stays as captured.
       const auto has_stroke = [](const Sign& sign) { return sign.stroke_span().has_value(); };
       if (opens) candidate->whole.begin = 0;
       if (closes) candidate->whole.end = info.motion->frames;
-      // Signs without stroke at the recording's own ends stand at no cut.
+      // Signs without stroke at the recording's ends are not at a cut.
       const auto first = std::find_if(run.begin(), run.end(), has_stroke);
       const auto last = std::find_if(run.rbegin(), run.rend(), has_stroke).base();
       if (first != run.end()) {
@@ -167,11 +167,11 @@ std::vector<Choice> choices_for(const Contents& contents, std::string_view recor
     choices.push_back(std::move(choice));
   }
   if (edit.swap) return choices;
-  // Where the first or the last sign is replaced, what lies before or after it stays, as a clip without signs.
+  // If the first or last sign is replaced, the motion before or after it is kept as a clip without signs.
   const auto bare = [&](FrameRange frames) {
     const FrameRange inside = clamp(frames, info.motion->frames);
     Choice choice;
-    // A few frames are not worth a junction.
+    // A few frames do not justify a junction.
     if (static_cast<double>(inside.size()) < 0.1 * info.motion->rate.hertz()) return choice;
     choice.candidates.push_back({.recording = index, .whole = inside, .core = inside});
     return choice;

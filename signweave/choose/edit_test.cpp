@@ -20,7 +20,7 @@ TEST(Edit, QuotesKeepAnEqualsSignInAGloss) {
   EXPECT_EQ(replacement.to, (GlossRef{"C#2", 3}));
 }
 
-TEST(Edit, ASwapIsTwoRunsWithBothEndsIncluded) {
+TEST(Edit, ASwapIsTwoInclusiveRuns) {
   const auto [a, b] = parse_swap("BRETAGNE..\"SIX, JUILLET\",NUAGES#2..BROUILLARD");
   EXPECT_EQ(a.first.gloss, "BRETAGNE");
   EXPECT_EQ(a.last.gloss, "SIX, JUILLET");
@@ -34,7 +34,7 @@ TEST(Edit, ARunOfOneSignNeedsNoDots) {
   EXPECT_EQ(b.last, (GlossRef{"B", 2}));
 }
 
-TEST(Edit, AWrongTextSaysWhatIsExpected) {
+TEST(Edit, ErrorsOfEditsSayWhatIsExpected) {
   EXPECT_THROW(parse_replacement("MATIN"), Error);
   EXPECT_THROW(parse_replacement("=MATIN"), Error);
   EXPECT_THROW(parse_swap("A..B"), Error);

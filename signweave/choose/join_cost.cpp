@@ -7,23 +7,24 @@
 namespace signweave {
 namespace {
 
-constexpr std::size_t kHands = JoinPoint::kVelocity;  // values before it are places: left hand's three, right hand's
+constexpr std::size_t kHands =
+    JoinPoint::kVelocity;  // the values before it are positions: three of the left hand, three of the right
 
-/// What the costs of a block need besides the values.
+/// Additional inputs of the costs of a block.
 struct Weights {
   const float* before;  ///< [lane]
   float to;
   float place;
   float speed;
-  float per_way;
+  float per_distance;
 };
 
-/// Some lanes of a value, as many as a machine's vectors have.
+/// Lanes of a value, as many as a vector register holds.
 using Lanes4 = float __attribute__((vector_size(16)));
 using Lanes8 = float __attribute__((vector_size(32)));
 using Lanes16 = float __attribute__((vector_size(64)));
 
-/// Halves are compared, so that no lane waits for the one before it.
+/// Compares halves, to avoid a chain of dependent comparisons.
 [[gnu::always_inline]] inline float least_of(const Lanes4& lanes) noexcept {
   const float even = std::min(lanes[0], lanes[2]);
   const float odd = std::min(lanes[1], lanes[3]);
@@ -42,7 +43,7 @@ using Lanes16 = float __attribute__((vector_size(64)));
   return least_of(less);
 }
 
-/// `ends` is [value][lane]. Two sums go on beside each other, so that none waits for the other's addition.
+/// `ends` is [value][lane]. Two independent sums hide the latency of additions.
 template <typename Lanes>
 [[gnu::always_inline]] inline float costs_by(const float* ends, const float* begin, const Weights& weights,
                                              float* out) noexcept {
@@ -56,8 +57,8 @@ template <typename Lanes>
     const Lanes left = at[0] * at[0] + at[1] * at[1] + at[2] * at[2];
     const Lanes right = at[3] * at[3] + at[4] * at[4] + at[5] * at[5];
     const Lanes none = {};
-    const Lanes fast_left = left * weights.per_way - 1.0f;
-    const Lanes fast_right = right * weights.per_way - 1.0f;
+    const Lanes fast_left = left * weights.per_distance - 1.0f;
+    const Lanes fast_right = right * weights.per_distance - 1.0f;
     Lanes sum = weights.place * (left + right) + weights.speed * (fast_left > none ? fast_left : none);
     Lanes other = weights.speed * (fast_right > none ? fast_right : none);
     static_assert(JoinPoint::kSize % 2 == 0 && kHands % 2 == 0);
@@ -81,8 +82,8 @@ template <typename Lanes>
   return least_of(least);
 }
 
-// Compiled for each width of vectors. All give the same bits, since each lane's sum has its own order and no operation
-// is joined with another (-ffp-contract=off).
+// Compiled for each vector width. All give the same bits, because the order of each lane's sum is fixed and operations
+// are not fused (-ffp-contract=off).
 using BlockCosts = float (*)(const float* ends, const float* begin, const Weights& weights, float* out) noexcept;
 
 #if defined(__x86_64__)
@@ -99,7 +100,7 @@ float costs_by_fours(const float* ends, const float* begin, const Weights& weigh
   return costs_by<Lanes4>(ends, begin, weights, out);
 }
 
-/// The one for the widest vectors that this machine has.
+/// The version for the widest vectors of this machine.
 BlockCosts widest() noexcept {
 #if defined(__x86_64__)
   if (__builtin_cpu_supports("avx512f")) return costs_by_sixteens;
@@ -125,7 +126,7 @@ void JoinLanes::place(const JoinEnds& ends, std::span<const std::uint32_t> order
     std::fill(roots_.begin() + static_cast<std::ptrdiff_t>(from), roots_.begin() + static_cast<std::ptrdiff_t>(to),
               root);
   };
-  std::fill(roots_.begin(), roots_.end(), 1.0f);  // of the places, which two terms need
+  std::fill(roots_.begin(), roots_.end(), 1.0f);  // of the positions, which two terms need
   fill(JoinPoint::kVelocity, JoinPoint::kDirection, JoinTerm::velocity, 1);
   fill(JoinPoint::kDirection, JoinPoint::kHandshape, JoinTerm::direction, 1);
   fill(JoinPoint::kHandshape, JoinPoint::kArms, JoinTerm::handshape, Handshape::kSize);
@@ -133,8 +134,9 @@ void JoinLanes::place(const JoinEnds& ends, std::span<const std::uint32_t> order
   fill(JoinPoint::kTrunk, JoinPoint::kSize, JoinTerm::trunk, 1);
   place_ = terms[static_cast<std::size_t>(JoinTerm::place)];
   speed_ = terms[static_cast<std::size_t>(JoinTerm::speed)];
-  const float way = static_cast<float>(std::max(scale.transition, kShortestJoin).count()) * scale.weights.speed_limit;
-  per_way_ = 1.0f / (way * way);
+  const float distance =
+      static_cast<float>(std::max(scale.transition, kShortestJoin).count()) * scale.weights.speed_limit;
+  per_distance_ = 1.0f / (distance * distance);
   values_.resize((order.size() + JoinEnds::kLanes - 1) / JoinEnds::kLanes);
   for (std::size_t at = 0; at < values_.size() * JoinEnds::kLanes; ++at) {
     const JoinPoint& point = ends.end(order[std::min(at, order.size() - 1)]);
@@ -152,9 +154,9 @@ void JoinLanes::compare_with(const JoinPoint& begin) noexcept {
 float JoinLanes::costs(std::size_t block, std::span<const float, JoinEnds::kLanes> before, float to,
                        std::span<float, JoinEnds::kLanes> out) const noexcept {
   static const BlockCosts block_costs = widest();
-  return block_costs(values_[block].values[0], begin_.data(),
-                     {.before = before.data(), .to = to, .place = place_, .speed = speed_, .per_way = per_way_},
-                     out.data());
+  return block_costs(
+      values_[block].values[0], begin_.data(),
+      {.before = before.data(), .to = to, .place = place_, .speed = speed_, .per_distance = per_distance_}, out.data());
 }
 
 }  // namespace signweave

@@ -12,17 +12,16 @@
 
 namespace signweave {
 
-/// What a selection's joins cost: the weights, and the time that a transition is given.
+/// Parameters of join costs: the weights, and the duration of a transition.
 struct JoinScale {
   JoinWeights weights;
   Seconds transition{0.5};
 };
 
-/// Both ends of each candidate of one gloss, placed out so that one candidate is compared with many at once. Immutable
-/// once made; places of one gloss share it.
+/// Both ends of each candidate of one gloss. Immutable; places of the same gloss share it.
 class JoinEnds {
  public:
-  /// How many are compared at once.
+  /// Number of candidates compared at once.
   static constexpr std::size_t kLanes = 16;
 
   /// [candidate] the first stroke's begin and the last stroke's end.
@@ -31,7 +30,7 @@ class JoinEnds {
   std::size_t size() const noexcept { return begins_.size(); }
   const JoinPoint& begin(std::size_t candidate) const noexcept { return begins_[candidate]; }
   const JoinPoint& end(std::size_t candidate) const noexcept { return ends_[candidate]; }
-  /// What is known at the begins and ends of all of them alike; none where they differ.
+  /// The values known at the begins and ends of all candidates; null if they differ.
   const std::uint8_t* known() const noexcept { return alike_ ? &known_ : nullptr; }
 
  private:
@@ -41,22 +40,23 @@ class JoinEnds {
   bool alike_ = true;
 };
 
-/// The ends of some candidates in an order that the caller chooses, to be compared with one begin after another. Used
-/// again and again it allocates only to grow.
+/// The ends of candidates in an order chosen by the caller, laid out to compare many with one begin at once. Reused, it
+/// allocates only to grow.
 class JoinLanes {
  public:
-  /// `order` names candidates of `ends`; lanes beyond them hold the last one again.
+  /// `order` lists candidates of `ends`; the remaining lanes repeat the last one.
   void place(const JoinEnds& ends, std::span<const std::uint32_t> order, const JoinScale& scale);
   std::size_t blocks() const noexcept { return values_.size(); }
-  /// The begin that `costs` is about from now on.
+  /// Sets the begin for the following calls of `costs`.
   void compare_with(const JoinPoint& begin) noexcept;
-  /// What leads to a block's ends, `before`, with `to` and with their joins to that begin, which are
-  /// cost_of(join_terms()) but for rounding. The least of them.
+  /// Writes path costs through a block's ends: `before` + `to` + the cost of the join to that begin, which is
+  /// cost_of(join_terms()) except for rounding. Returns the least of them.
   float costs(std::size_t block, std::span<const float, JoinEnds::kLanes> before, float to,
               std::span<float, JoinEnds::kLanes> out) const noexcept;
 
  private:
-  /// Ends of kLanes candidates, times their roots. A value's lanes do not straddle two lines of the cache.
+  /// Ends of kLanes candidates, multiplied by the roots of the weights. The lanes of a value do not straddle cache
+  /// lines.
   struct alignas(64) Block {
     float values[JoinPoint::kSize][JoinEnds::kLanes];
   };
@@ -65,7 +65,7 @@ class JoinLanes {
   std::array<float, JoinPoint::kSize> begin_{};  ///< times the roots
   float place_ = 0;
   float speed_ = 0;
-  float per_way_ = 0;  ///< 1 / (the way that a hand goes at the limit, shoulder widths)²
+  float per_distance_ = 0;  ///< 1 / (distance of a hand at the speed limit, shoulder widths)²
 };
 
 }  // namespace signweave

@@ -8,14 +8,14 @@
 namespace signweave {
 namespace {
 
-/// No more is kept of a retraction or a preparation where the cut is chosen.
+/// Maximum kept part of a retraction or preparation with a chosen cut.
 constexpr Seconds kLongestKept{1.5};
 
 std::int64_t frames_in(Seconds time, FrameRate rate) {
   return std::llround(time.count() * rate.hertz());
 }
 
-/// Frames counted from the core's first.
+/// `frames` are counted from the first frame of the core.
 void read(const JunctionSettings& settings, const PlacedClip& placed, FrameRange frames, Motion& out) {
   PlacedClip alone = placed;
   alone.core = 0;
@@ -23,13 +23,12 @@ void read(const JunctionSettings& settings, const PlacedClip& placed, FrameRange
   read_frames(alone, frames, out.poses({0, frames.size()}));
 }
 
-/// What lies around two cuts.
+/// The frames around two cuts.
 struct Sides {
   CutSide from, to;
 };
 
-/// The same, before it is known where the cuts come to lie: at most `most` frames beside each stroke, and kContext of
-/// the strokes themselves.
+/// The same before the cuts are known: at most `most` frames next to each stroke, and kContext of the strokes.
 Sides read(const JunctionSettings& settings, const PlacedClip& a, const PlacedClip& b, std::int64_t most,
            JunctionScratch& scratch) {
   const std::int64_t context = std::max<std::int64_t>(1, frames_in(kContext, settings.rate));
@@ -64,7 +63,7 @@ JunctionCuts JunctionTimer::cuts_between(const PlacedClip& a, const PlacedClip& 
     sides = read(settings_, a, b, choose ? frames_in(kLongestKept, settings_.rate) : 0, scratch);
   }
   if (fitted) {
-    // The transition as it is where nothing of it is kept.
+    // The whole transition as a gap, with nothing kept.
     const Gap whole{.skeleton = settings_.skeleton.get(),
                     .groups = &settings_.rig->groups,
                     .rate = settings_.rate,

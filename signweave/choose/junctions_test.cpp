@@ -1,4 +1,4 @@
-// Junctions that have a method, a duration or a tempo of their own.
+// Tests of junctions with their own method, duration or tempo.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -12,7 +12,7 @@ using testing_motion::angle;
 using testing_motion::clip;
 using testing_motion::motion_of;
 
-/// Every rule below holds for each method.
+/// Every test below runs for each method.
 class JunctionsOf : public testing::TestWithParam<std::string> {
  protected:
   const TransitionMethod* method() const { return find_transition_method(GetParam()); }
@@ -25,11 +25,11 @@ std::vector<MotionClip> some_clips() {
   return clips;
 }
 
-TEST_P(JunctionsOf, NamingAllWithWhatIsChosenForAllIsTheSame) {
+TEST_P(JunctionsOf, NamingAllWithTheCommonChoiceChangesNothing) {
   for (const double tempo : {1.0, 1.3}) {
     const ConcatenateOptions of_all{.method = method(), .duration = 480ms, .tempo = tempo};
     const Synthesis expected = concatenate(some_clips(), of_all);
-    // What is named wins over what is chosen for all.
+    // Options of a junction take precedence over the common ones.
     const ConcatenateOptions otherwise{
         .method = find_transition_method(GetParam() == "sine" ? "overlap" : "sine"), .duration = 900ms, .tempo = tempo};
     std::vector<MotionClip> named = some_clips();
@@ -41,7 +41,7 @@ TEST_P(JunctionsOf, NamingAllWithWhatIsChosenForAllIsTheSame) {
   }
 }
 
-TEST_P(JunctionsOf, OneThatIsNamedChangesNothingElse) {
+TEST_P(JunctionsOf, NamingOneChangesNoOther) {
   const ConcatenateOptions options{.duration = 480ms};
   const std::vector<MotionClip> plain = some_clips();
   const Synthesis before = concatenate(plain, options);
@@ -71,7 +71,7 @@ TEST_P(JunctionsOf, OneThatIsNamedChangesNothingElse) {
   }
 }
 
-TEST_P(JunctionsOf, NothingJumpsBesideJunctionsOfOtherMethods) {
+TEST_P(JunctionsOf, NothingJumpsNextToJunctionsOfOtherMethods) {
   for (const TransitionMethod& other : transition_methods()) {
     std::vector<MotionClip> clips = some_clips();
     clips[1].junction = {method(), 600ms, {}};
@@ -96,19 +96,19 @@ INSTANTIATE_TEST_SUITE_P(EveryMethod, JunctionsOf, testing::ValuesIn([] {
                          }()),
                          [](const auto& test) { return test.param; });
 
-TEST(JunctionTempo, IsThatOfTheTransitionAloneBesideTheOneOfAll) {
+TEST(JunctionTempo, AppliesToTheTransitionInAdditionToTheCommonTempo) {
   std::vector<MotionClip> clips = {clip("A", 0.1f, 20, 40, 25), clip("B", 0.8f, 30, 34, 20)};
   clips[1].junction.tempo = 1.5;
   ConcatenateOptions options{.duration = 600ms};
   EXPECT_EQ(concatenate(clips, options).junctions[0].frames.size(), 40);
-  clips[1].pause_before = 350ms;  // as long as ever
+  clips[1].pause_before = 350ms;  // not affected by the tempo
   EXPECT_EQ(concatenate(clips, options).junctions[0].frames.size(), 40 + 35);
   clips[1].junction.duration = 300ms;
   EXPECT_EQ(concatenate(clips, options).junctions[0].frames.size(), 20 + 35);
   options.tempo = 0.5;
   const Synthesis slow = concatenate(clips, options);
   EXPECT_EQ(slow.junctions[0].frames.size(), 40 + 70);
-  EXPECT_EQ(slow.clips[0].core.size(), 80);  // strokes know the tempo of all alone
+  EXPECT_EQ(slow.clips[0].core.size(), 80);  // strokes use only the common tempo
   EXPECT_EQ(slow.clips[1].core.size(), 68);
 }
 

@@ -13,7 +13,7 @@ namespace {
 constexpr std::size_t kMostWordsOfAGloss = 4;
 constexpr std::size_t kMostNamed = 8;  // in one line
 
-using FoldedGlosses = std::unordered_map<std::string, std::vector<std::string>>;  // by their loose form
+using FoldedGlosses = std::unordered_map<std::string, std::vector<std::string>>;  // by loose form
 
 bool is_there(const Place& place, const Segments& segments) {
   if (place.kind != Place::Kind::gloss) return true;
@@ -27,12 +27,12 @@ bool is_there(const Place& place, const Segments& segments) {
   });
 }
 
-/// Whether a place may be a word of a gloss of several: nothing was said of it but its word.
+/// True if a place may be one word of a gloss of several: it has neither token, pause nor quotes.
 bool is_word(const Place& place, bool first) {
   return place.kind == Place::Kind::gloss && place.gloss.token == 0 && (first || place.pause_before == Milliseconds(0));
 }
 
-/// The longest gloss of several places from this one on of which one at least is missing, or nothing.
+/// The longest gloss formed by several places from this one, at least one of which is missing; or none.
 MissingGloss joined_from(const Utterance& utterance, std::size_t place, const std::vector<bool>& there,
                          const FoldedGlosses& folded) {
   MissingGloss best;
@@ -76,8 +76,8 @@ std::vector<MissingGloss> missing_of(const Utterance& utterance, const Segments&
   return missing;
 }
 
-/// The utterance with the first match in place of what is missing; that of those without one stays.
-Utterance mended(const Utterance& utterance, const std::vector<MissingGloss>& missing) {
+/// The utterance with missing glosses replaced by their first match; those without a match are unchanged.
+Utterance suggestion_for(const Utterance& utterance, const std::vector<MissingGloss>& missing) {
   Utterance result;
   auto next = missing.begin();
   for (std::size_t i = 0; i < utterance.places.size(); ++i) {
@@ -99,7 +99,7 @@ MissingGlosses error_of(const Utterance& utterance, std::vector<MissingGloss> mi
   if (missing.size() > kMostNamed) names += fmt::format(" and {} more", missing.size() - kMostNamed);
   std::string text = fmt::format("no sign{} {} in this database", missing.size() == 1 ? "" : "s", names);
   const bool all = std::ranges::none_of(missing, [](const MissingGloss& one) { return one.matches.empty(); });
-  std::string suggestion = all ? to_string(mended(utterance, missing)) : std::string();
+  std::string suggestion = all ? to_string(suggestion_for(utterance, missing)) : std::string();
   std::string meant;
   if (missing.size() == 1 && missing.front().places == 1) {
     meant = either_of(missing.front().matches);
@@ -131,7 +131,7 @@ Utterance with_folded_glosses(const Utterance& utterance, const Segments& segmen
   for (const MissingGloss& one : missing) {
     notices.push_back({"utterance", fmt::format("'{}' is signed as {}", printable(one.gloss), one.matches.front())});
   }
-  return mended(utterance, missing);
+  return suggestion_for(utterance, missing);
 }
 
 }  // namespace signweave

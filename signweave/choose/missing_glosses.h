@@ -10,30 +10,30 @@
 
 namespace signweave {
 
-/// A gloss of an utterance that no sign has.
+/// A gloss of an utterance that the database lacks.
 struct MissingGloss {
   std::size_t place = 0;             ///< of Utterance::places
-  std::size_t places = 1;            ///< that are one gloss together, as LE MANS without its quotation marks
-  std::string gloss;                 ///< as typed; of several places with blanks
-  std::vector<std::string> matches;  ///< glosses that are the same but for loose_form; where none is, near ones
-  bool folds = false;                ///< whether `matches` are the same
+  std::size_t places = 1;            ///< number of places that form one gloss, such as LE MANS without quotation marks
+  std::string gloss;                 ///< as typed; several places are separated by blanks
+  std::vector<std::string> matches;  ///< glosses with the same loose_form; if there are none, similar ones
+  bool folds = false;                ///< true if `matches` have the same loose_form
 };
 
-/// Glosses of an utterance are not there. `what()` is one line that names them all, and what would mend it.
+/// Thrown if glosses of an utterance are missing. `what()` is one line that names them all and suggests a fix.
 struct MissingGlosses : Error {
   MissingGlosses(const std::string& text, std::vector<MissingGloss> missing_, std::string suggestion_)
       : Error(ErrorCode::not_found, text), missing(std::move(missing_)), suggestion(std::move(suggestion_)) {}
 
   std::vector<MissingGloss> missing;
-  std::string suggestion;  ///< the utterance with the first match of each; empty where one has none
+  std::string suggestion;  ///< the utterance with the first match of each; empty if one has no match
 };
 
-/// Throws MissingGlosses where a place names a gloss that no sign has. Where all are there, the time it takes grows
-/// with the places only.
+/// Throws MissingGlosses if a place names a gloss that the database lacks. If none is missing, the time depends only on
+/// the number of places.
 void require_glosses(const Utterance& utterance, const Segments& segments);
 
-/// The utterance with the glosses that differ from its own in spelling only (loose_form), where each has one such
-/// gloss. Adds what was taken for what to `notices`. Throws MissingGlosses for the others.
+/// The utterance with missing glosses replaced by glosses that differ only in spelling (loose_form), if there is
+/// exactly one for each. Reports the replacements in `notices`. Throws MissingGlosses for the others.
 Utterance with_folded_glosses(const Utterance& utterance, const Segments& segments, std::vector<Notice>& notices);
 
 }  // namespace signweave

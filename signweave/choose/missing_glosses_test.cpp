@@ -52,11 +52,11 @@ Fault fault_of(std::string_view utterance) {
   return {};
 }
 
-TEST(MissingGlosses, NoneAreMissingWhereAllAreThere) {
+TEST(MissingGlosses, NoneAreMissingIfAllExist) {
   EXPECT_NO_THROW(require_glosses(parse_utterance("VANNES MATIN#7 \"LE MANS\" \"meteo\"@0..10"), corpus()));
 }
 
-TEST(MissingGlosses, AllAreNamedWithWhatWasMeant) {
+TEST(MissingGlosses, AllAreNamedWithSuggestions) {
   EXPECT_EQ(fault_of("VANES").text, "no sign 'VANES' in this database; did you mean VANNES?");
   EXPECT_EQ(fault_of("vannes , matin").text,
             "no signs 'vannes' and 'matin' in this database; did you mean VANNES , MATIN?");
@@ -69,13 +69,13 @@ TEST(MissingGlosses, AllAreNamedWithWhatWasMeant) {
   EXPECT_EQ(fault_of("matin#2 VANNES").suggestion, "MATIN#2 VANNES");
 }
 
-TEST(MissingGlosses, WordsThatAreOneGlossAreTakenTogether) {
+TEST(MissingGlosses, WordsOfOneGlossAreCombined) {
   EXPECT_EQ(fault_of("MATIN LE MANS").text, "no sign 'LE MANS' in this database; did you mean MATIN \"LE MANS\"?");
   EXPECT_EQ(fault_of("le mans , ete").suggestion, "\"LE MANS\" , ÉTÉ");
-  EXPECT_EQ(fault_of("le , mans").suggestion, "") << "a pause stands between";
+  EXPECT_EQ(fault_of("le , mans").suggestion, "") << "there is a pause between";
 }
 
-TEST(MissingGlosses, AreFoldedWhereOneGlossIsTheSame) {
+TEST(MissingGlosses, AreFoldedIfExactlyOneGlossMatches) {
   std::vector<Notice> notices;
   const Utterance folded = with_folded_glosses(parse_utterance("vannes . le mans MATIN ete"), corpus(), notices);
   EXPECT_EQ(to_string(folded), "VANNES . \"LE MANS\" MATIN ÉTÉ");
@@ -84,8 +84,8 @@ TEST(MissingGlosses, AreFoldedWhereOneGlossIsTheSame) {
   EXPECT_THAT(said,
               ElementsAre("'vannes' is signed as VANNES", "'le mans' is signed as LE MANS", "'ete' is signed as ÉTÉ"));
   EXPECT_THROW(with_folded_glosses(parse_utterance("vanes"), corpus(), notices), MissingGlosses)
-      << "near is not the same";
-  EXPECT_THROW(with_folded_glosses(parse_utterance("deja"), corpus(), notices), MissingGlosses) << "of two glosses";
+      << "similar is not the same";
+  EXPECT_THROW(with_folded_glosses(parse_utterance("deja"), corpus(), notices), MissingGlosses) << "two glosses match";
   notices.clear();
   EXPECT_EQ(to_string(with_folded_glosses(parse_utterance("MATIN"), corpus(), notices)), "MATIN");
   EXPECT_THAT(notices, IsEmpty());

@@ -12,19 +12,19 @@
 #include "signweave/database/database.h"
 #include "signweave/features/duration_fit.h"
 
-/// What is reported of how something is signed, by a file and by a stream in the same words.
+/// Notices about a synthesis, with the same text for files and streams.
 namespace signweave {
 
-/// Of a sign of a candidate that is not signed.
+/// Reports a sign of a candidate that is left out.
 Notice notice_left_out(const std::string& recording, const Sign& sign);
-/// Where a method had no captured transition to go by.
+/// Returns a notice if a method had no captured transitions to use.
 std::optional<Notice> notice_without_captured(std::string_view method, std::size_t captured);
-/// Where nothing in the database tells how long a transition lasts.
+/// Returns a notice if the database does not determine the duration of transitions.
 std::optional<Notice> notice_without_durations(const DurationFit& durations);
 
-/// Names and values that documents of recordings declare of themselves, such as that shapes are placeholders.
+/// Names and values declared by the documents of recordings, such as that shapes are placeholders.
 using DeclarationSet = std::set<std::pair<std::string, std::string>>;
-/// Adds what anything that is signed from a recording must declare.
+/// Adds the declarations that must accompany everything signed from a recording.
 void add_declarations(const RecordingInfo& recording, DeclarationSet& declarations);
 
 }  // namespace signweave

@@ -69,7 +69,7 @@ OpenScore::OpenScore(const Database& database, Score score, const FindSource& ot
     if (source.kind != SourceRef::Kind::recording) {
       if (others) return others(source);
       throw Error(ErrorCode::unsupported,
-                  "score: a stream made it, and it has frames of no recording (kind 'rest' or 'shown'); sign its "
+                  "score: it was made by a stream and has frames of no recording (kind 'rest' or 'shown'); sign its "
                   "utterance again");
     }
     const auto [at, is_new] = sources.try_emplace(source.recording);

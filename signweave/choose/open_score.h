@@ -13,17 +13,17 @@
 
 namespace signweave {
 
-/// The first method of a junction that needs something of the corpus, captured spans before all; or null.
+/// The first junction's method that needs data from the corpus, preferably one that needs captured spans; or null.
 const TransitionMethod* method_with_needs(const std::vector<MotionClip>& clips, const TransitionMethod& of_all);
 
-/// What the documents of the clips' recordings declare of themselves.
+/// The declarations of the documents of the clips' recordings.
 std::vector<std::pair<std::string, std::string>> declarations_of(const Contents& contents,
                                                                  const std::vector<MotionClip>& clips);
 
-/// Of the signer of a recording, whose motion is measured once as long as nothing in the database changes.
+/// The rig of a recording's signer. The motion is measured once as long as the database does not change.
 SignerRig signer_rig_of(const Snapshot& snapshot, const RecordingInfo& recording);
 
-/// Measures how long reading takes: the column "retrieval" of Table 1.
+/// Measures the time spent reading: the column "retrieval" of Table 1.
 class TimedSource final : public MotionSource {
  public:
   /// Adds to `spent`, which must outlive it.
@@ -41,14 +41,15 @@ class TimedSource final : public MotionSource {
   Seconds& spent_;
 };
 
-/// A score of a database's recordings, ready to be rendered: the whole of it, or any frames, in any order, any number
-/// of times. Nothing is chosen: its frames are those that it had when it was made, as long as what the corpus teaches
-/// its transitions stays the same. It sees the database as it was when it was opened. Belongs to one thread.
+/// A score of a database's recordings, ready to be rendered: all of it or any frames, in any order, any number of
+/// times. Nothing is chosen: the frames are those of the score's creation, as long as the data that transitions learn
+/// from the corpus is unchanged. It sees the database as it was when opened. Used by one thread.
 class OpenScore {
  public:
-  /// The database must outlive it. `others`: gives the frames of clips of another kind than SourceRef::Kind::recording,
-  /// as a score of a stream has them. Throws as `check` of a score and `plan_of` do, Error{not_found} for a recording
-  /// that is not there, Error{conflict} for one that changed since, Error{unsupported} where `others` is missing.
+  /// The database must outlive it. `others` provides the frames of clips of other kinds than
+  /// SourceRef::Kind::recording, which occur in scores of streams. Throws as `check` of a score and `plan_of` do;
+  /// Error{not_found} for a missing recording, Error{conflict} for one that changed since, Error{unsupported} if
+  /// `others` is needed but not given.
   OpenScore(const Database& database, Score score, const FindSource& others = {});
   OpenScore(const OpenScore&) = delete;
   OpenScore& operator=(const OpenScore&) = delete;
@@ -63,7 +64,7 @@ class OpenScore {
 
   /// As Renderer::render.
   void render(FrameRange frames, Motion& out) { renderer_->render(frames, out); }
-  /// All of it, with what is reported of it. The memory of `used` is used again. Throws Error{corrupt}.
+  /// Renders all of it, with its notices. The memory of `used` is reused. Throws Error{corrupt}.
   Synthesis synthesize(Synthesis used = {});
 
  private:
@@ -74,7 +75,7 @@ class OpenScore {
   std::vector<Notice> notices_;
   SignerRig rig_;
   CapturedSpans captured_;
-  std::optional<Renderer> renderer_;  ///< never empty; refers to what comes before it
+  std::optional<Renderer> renderer_;  ///< never empty; refers to the members above
 };
 
 }  // namespace signweave

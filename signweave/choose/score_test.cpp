@@ -1,4 +1,4 @@
-// Scores of what is joined: they are read back as they were written, give the same frames, and are refused where they
+// Tests of the scores of joined clips: they round-trip through JSON, give the same frames, and are rejected if they
 // cannot be rendered.
 #include "signweave/score/score.h"
 
@@ -30,7 +30,7 @@ std::vector<MotionClip> clips_to_join() {
   return clips;
 }
 
-/// The clips of a score, with the motions of some others.
+/// The clips of a score, with the motions of other clips.
 std::vector<MotionClip> clips_from(const Score& score, const std::vector<MotionClip>& from) {
   return clips_of(score, [&](const SourceRef& source) {
     for (const MotionClip& one : from) {
@@ -40,7 +40,7 @@ std::vector<MotionClip> clips_from(const Score& score, const std::vector<MotionC
   });
 }
 
-/// What is rendered from a score alone, of the motions of some clips.
+/// The result of rendering a score with the motions of some clips.
 Synthesis rendered(const Score& score, const std::vector<MotionClip>& from) {
   const std::vector<MotionClip> clips = clips_from(score, from);
   const SignerRig rig = signer_rig_of(from.front());
@@ -113,7 +113,7 @@ Motion part_of(const Motion& motion, FrameRange frames) {
 
 RC_GTEST_PROP(ScoreOfClips, AnyFramesInAnyOrderHaveTheBitsOfTheWhole, ()) {
   std::vector<MotionClip> clips = drawn_clips();
-  for (std::size_t i = 0; i < clips.size(); i += 2) {  // some with a track that others lack, some turned
+  for (std::size_t i = 0; i < clips.size(); i += 2) {  // some have a track that others lack, some are rotated
     Motion motion = testing_motion::motion_of(clips[i]);
     std::vector<float> values;
     for (std::int64_t frame = 0; frame < motion.frame_count(); ++frame) {
@@ -144,7 +144,7 @@ RC_GTEST_PROP(ScoreOfClips, AnyFramesInAnyOrderHaveTheBitsOfTheWhole, ()) {
   RC_ASSERT_THROWS_AS(renderer.render({0, whole.motion.frame_count() + 1}, made), Error);
 }
 
-TEST(ScoreOfClips, IsReadByPeople) {
+TEST(ScoreOfClips, HasAReadableText) {
   const Synthesis made = concatenate(clips_to_join(), {.duration = 480ms});
   const std::string text = to_string(made.score);
   EXPECT_THAT(text, HasSubstr("frames at 100 frames a second, with the joints of 'A'\n"));
@@ -153,7 +153,7 @@ TEST(ScoreOfClips, IsReadByPeople) {
   EXPECT_THAT(text, HasSubstr("clip 3, place 3: D from 'D' 7-27, 0.5 frames a frame\n"));
 }
 
-/// What is said of a score's JSON in which one text stands for another.
+/// The error for a score's JSON with one text replaced by another.
 std::string fault_of(const std::string& text, const std::string& instead, bool all = false) {
   std::string json = json_of(concatenate(clips_to_join(), {.duration = 480ms}).score);
   std::size_t at = json.find(text);
@@ -169,7 +169,7 @@ std::string fault_of(const std::string& text, const std::string& instead, bool a
   return "no fault";
 }
 
-TEST(ScoreOfClips, FaultsSayWhereAndWhat) {
+TEST(ScoreOfClips, ErrorsSayWhereAndWhat) {
   EXPECT_EQ(fault_of("\"id\": 1", "\"id\": 1"), "no fault");
   EXPECT_THAT(fault_of("{", "["), HasSubstr("my.json:"));
   EXPECT_THAT(fault_of("\"signweave_score\": 1", "\"signweave_score\": 2"), HasSubstr("a score of version 2"));
@@ -183,7 +183,7 @@ TEST(ScoreOfClips, FaultsSayWhereAndWhat) {
   EXPECT_THAT(fault_of("\"hand\": \"both\"", "\"hand\": \"left-ish\""), HasSubstr("one of both, right, left"));
   EXPECT_THAT(fault_of("\"method\": \"overlap\"", "\"method\": \"fade\""), HasSubstr("no transition method 'fade'"));
   EXPECT_THAT(fault_of("\"channel\": \"left\"", "\"channel\": \"body\""),
-              HasSubstr("lane 'body' stands where 'left' belongs"));
+              HasSubstr("lane 'body' is where 'left' belongs"));
   EXPECT_THAT(fault_of("\"retraction\": ", "\"retraction\": 9"), HasSubstr("lane 'body': transition 0"));
   EXPECT_THAT(fault_of("\"frames\": ", "\"frames\": 1"), HasSubstr("lane 'body' ends at frame"));
   EXPECT_THAT(fault_of("\"frames\": ", "\"frames\": 99999999"), HasSubstr("a score has 1 to 8640000"));
@@ -193,21 +193,21 @@ TEST(ScoreOfClips, FaultsSayWhereAndWhat) {
   EXPECT_THAT(fault_of("\"at\": [20, 60]", "\"at\": [20, 61]"), HasSubstr("clip 0 shows 40 frames in 41, 1 a frame"));
   EXPECT_THAT(fault_of("\"rate\": [100, 1]", "\"rate\": [1, 9000000000]"), HasSubstr("a score has 0.001 to 1000000"));
   EXPECT_THAT(fault_of("\"frame_time\": 0.01", "\"frame_time\": 0"), HasSubstr("the clock of clip 0 begins at 0 s"));
-  EXPECT_THAT(fault_of("\"ms\": [70, 920]", "\"ms\": [-9223372036854775807, 920]"), HasSubstr("lies at no time"));
+  EXPECT_THAT(fault_of("\"ms\": [70, 920]", "\"ms\": [-9223372036854775807, 920]"), HasSubstr("has no valid time"));
   EXPECT_THAT(fault_of("\"at\": [20, 60]", "\"at\": 20"), HasSubstr("clips[0].at: it must be a list"));
   EXPECT_THAT(fault_of("\"recording\": \"B\"", "\"kind\": \"shown\", \"recording\": \"B\""),
-              HasSubstr("clip 1 names a recording, and is of what was shown before"));
+              HasSubstr("clip 1 names a recording, but is of kind 'shown'"));
   EXPECT_THAT(fault_of("\"recording\": \"B\"", "\"kind\": \"dream\", \"recording\": \"B\""),
               HasSubstr("one of recording, rest, shown"));
 }
 
-TEST(ScoreOfClips, TheFuzzTargetBeginsWithScoresThatAreRead) {
+TEST(ScoreOfClips, TheFuzzCorpusContainsReadableScores) {
   const std::filesystem::path file = std::filesystem::path(SIGNWEAVE_SOURCE_DIR) / "testdata/score/three_signs.json";
   EXPECT_EQ(score_from_json(read_file(file), "three_signs.json").clips.size(), 3u);
 }
 
-TEST(ScoreOfClips, ACrossFadeOfOneLaneAloneIsRefused) {
-  // What is compared between the two sides is then told by the body's cut: it would lie outside of the other lanes.
+TEST(ScoreOfClips, ACrossFadeOfASingleLaneIsRejected) {
+  // The frames compared between both sides would then follow the body's cut and lie outside the other lanes.
   Score score = concatenate(clips_to_join(), {.method = find_transition_method("overlap"), .duration = 200ms}).score;
   ASSERT_GT(std::get<Transition>(score.lanes[0].items[1].what).cut.overlap(), 0);
   EXPECT_NO_THROW(check(score, "score"));
@@ -222,23 +222,23 @@ TEST(ScoreOfClips, ACrossFadeOfOneLaneAloneIsRefused) {
     check(score, "score");
     ADD_FAILURE() << "no fault";
   } catch (const Error& error) {
-    EXPECT_THAT(error.what(), HasSubstr("junction 1 is cross-faded, and so must be cut alike"));
+    EXPECT_THAT(error.what(), HasSubstr("junction 1 is cross-faded, so its cut must be the same"));
   }
 }
 
-TEST(ScoreOfClips, ClipsThatTheirMotionDoesNotHaveAreRefused) {
+TEST(ScoreOfClips, ClipsBeyondTheirMotionAreRejected) {
   const std::vector<MotionClip> clips = clips_to_join();
   Score score = concatenate(clips, {.duration = 480ms}).score;
   score.clips[1].whole.end = 10'000;
   EXPECT_THROW(rendered(score, clips), Error);
   score = concatenate(clips, {.duration = 480ms}).score;
-  score.clips[0].whole.begin = score.clips[0].core.begin;  // its preparation is shown, and not there
+  score.clips[0].whole.begin = score.clips[0].core.begin;  // its preparation is shown but does not exist
   EXPECT_THROW(rendered(score, clips), Error);
   score = concatenate(clips, {.duration = 480ms}).score;
-  score.clips[1].step = 2;  // its core is not there where it ends
+  score.clips[1].step = 2;  // its core ends beyond its frames
   EXPECT_THROW(rendered(score, clips), Error);
   score = concatenate(clips, {.duration = 480ms}).score;
-  for (Item& item : score.lanes.back().items) {  // tracks go on longer than they were captured
+  for (Item& item : score.lanes.back().items) {  // tracks continue longer than captured
     if (Transition* const made = std::get_if<Transition>(&item.what)) made->cut.retraction_frames = 41;
   }
   EXPECT_THROW(rendered(score, clips), Error);

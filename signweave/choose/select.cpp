@@ -11,7 +11,7 @@
 namespace signweave {
 namespace {
 
-constexpr std::string_view kNoLabel;  // no sign has an empty one
+constexpr std::string_view kNoLabel;  // no sign has an empty label
 
 float& term(TargetTerms& terms, TargetTerm which) {
   return terms[static_cast<std::size_t>(which)];
@@ -42,10 +42,10 @@ class PoseReader {
   std::map<std::pair<std::size_t, std::int64_t>, Pose> poses_;
 };
 
-/// Radians, mean over the joints.
+/// Mean over the joints, radians.
 double rotation_between(const Pose& a, const Pose& b) {
-  // Skeletons of one corpus may differ; what cannot be compared is as far as can be. Where nothing is known of the
-  // rigs, joining them is refused later.
+  // Skeletons of one corpus may differ; poses that cannot be compared get the maximum distance. If the rigs are
+  // unknown, joining them is rejected later.
   if (a.rotations.size() != b.rotations.size()) return 3.2;
   double sum = 0;
   for (std::size_t i = 1; i < a.rotations.size(); ++i) {  // without the root, which is aligned away
@@ -55,22 +55,22 @@ double rotation_between(const Pose& a, const Pose& b) {
   return a.rotations.size() > 1 ? sum / static_cast<double>(a.rotations.size() - 1) : 0.0;
 }
 
-/// Where nothing was measured: so many radians cost as much as a join that somebody chose blindly. (ours)
+/// Without measurements: the rotation, in radians, that costs as much as a join to a randomly chosen token. (ours)
 constexpr double kBlindRotation = 0.4;
 
-/// What is known of a place's candidates whatever stands beside them.
+/// Data of a place's candidates that does not depend on its neighbours.
 struct Tokens {
   std::shared_ptr<const JoinEnds> ends;
-  std::vector<RowId> neighbour;                           ///< [candidate] the row that it goes on from, or kNoRow
-  std::vector<std::string_view> label_before;             ///< [candidate] of the gloss recorded before, or kNoLabel
-  std::vector<std::string_view> label_after;              ///< [candidate]
+  std::vector<RowId> neighbour;                ///< [candidate] the row that it follows in its recording, or kNoRow
+  std::vector<std::string_view> label_before;  ///< [candidate] label of the gloss recorded before, or kNoLabel
+  std::vector<std::string_view> label_after;   ///< [candidate]
   std::vector<std::pair<RowId, std::uint32_t>> by_last;   ///< last row and candidate, ascending
   std::vector<TargetTerms> terms;                         ///< [candidate] weighted; left and right are 0
   std::vector<float> own;                                 ///< [candidate] phases, outlier, defects
   std::vector<float> made_before;                         ///< [candidate] preparation
   std::vector<float> made_after;                          ///< [candidate] retraction
   std::vector<std::pair<std::size_t, FrameRange>> cores;  ///< [candidate] recording and core
-  std::string_view first_label = kNoLabel;                ///< of the gloss that this place begins with
+  std::string_view first_label = kNoLabel;                ///< label of the gloss that this place begins with
   std::string_view last_label = kNoLabel;                 ///< and ends with
 };
 
@@ -149,7 +149,7 @@ struct Selector::State {
   std::vector<TargetTerms> terms;  ///< [candidate] of the last place
 
   std::shared_ptr<const Tokens> look_up(std::span<const Candidate> candidates) {
-    // The tokens of a gloss are always the same ones, so the first tells which.
+    // The tokens of a gloss are always the same, so the first identifies them.
     const bool gloss = candidates.front().token > 0 && candidates.front().first_row != kNoRow;
     if (!gloss) return std::make_shared<const Tokens>(tokens_of(snapshot, candidates));
     std::shared_ptr<const Tokens>& tokens = known[{candidates.front().first_row, candidates.size()}];
@@ -157,8 +157,8 @@ struct Selector::State {
     return tokens;
   }
 
-  /// What stands for the parts of a join of which nothing is known: a blind choice's cost, as far as they make the
-  /// body; of a join of which nothing at all is known, the rotation of the joints.
+  /// The replacement cost of the unknown parts of a join: their share of the cost of a random choice; for a join
+  /// without any known features, the rotation of the joints.
   float unknown(const Tokens& a, std::size_t from, const Tokens& b, std::size_t to) {
     constexpr int kParts = 7;
     const unsigned both = static_cast<unsigned>(a.ends->end(from).known) & b.ends->begin(to).known;
@@ -169,7 +169,7 @@ struct Selector::State {
     return static_cast<float>(rotation_between(last, poses.at(next_recording, next_core.begin)) / kBlindRotation);
   }
 
-  /// True where all joins between two places are judged by the same parts of the body.
+  /// True if all joins between two places use the same parts of the body.
   static bool alike(const Tokens& a, const Tokens& b) {
     const std::uint8_t* one = a.ends->known();
     const std::uint8_t* other = b.ends->known();
@@ -250,7 +250,7 @@ bool are_neighbours(const Contents& contents, const Candidate& a, const Candidat
 
 namespace {
 
-/// What every candidate costs among those that were chosen.
+/// The costs of every candidate, given the other choices.
 std::vector<std::vector<CandidateCosts>> explain(std::span<const PlaceCosts> places,
                                                  const std::vector<std::vector<TargetTerms>>& targets,
                                                  const std::vector<std::size_t>& chosen, const JoinScale& scale) {
@@ -284,7 +284,7 @@ std::vector<std::vector<CandidateCosts>> explain(std::span<const PlaceCosts> pla
         after = transition_cost(place, c, next, chosen[i + 1], scale);
         if (next.kept[chosen[i + 1]] == c) {
           term(costs.target, TargetTerm::retraction) = 0;
-        } else {  // which `target` counts, and the other place's preparation that place
+        } else {  // counted in `target`; the other place counts its own preparation
           after -= place.made_after[c] + next.made_before[chosen[i + 1]];
         }
       }
@@ -302,7 +302,7 @@ Selection select(const Snapshot& snapshot, std::span<const Choice> choices, cons
   Selection selection;
   selection.transition = options.transition;
   if (choices.empty()) return selection;
-  // With one candidate everywhere there is nothing to choose, and nothing need be looked up.
+  // With one candidate everywhere there is nothing to choose and nothing to look up.
   selection.measured = options.explain || std::any_of(choices.begin(), choices.end(),
                                                       [](const Choice& c) { return c.candidates.size() > 1; });
   if (!selection.measured) {

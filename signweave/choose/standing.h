@@ -8,20 +8,20 @@
 
 namespace signweave {
 
-/// How clips from other recordings are brought to where the signer of the reference clip stands.
+/// How clips are moved to where the signer of the reference clip stands.
 enum class Alignment {
-  automatic,  ///< `ground` for clips of other recordings than the reference, none for its own
-  ground,     ///< every clip: shift on the ground and turn about the vertical
-  none,       ///< all sources come from one session
+  automatic,  ///< `ground` for clips of other recordings than the reference's, `none` for its own
+  ground,     ///< every clip: translation on the ground and rotation about the vertical
+  none,       ///< no clip; for sources from one session
 };
 
-/// True where a clip of that recording is brought to where the signer of the reference's stands.
+/// True if clips of `recording` are moved to where the signer of `reference` stands.
 bool is_aligned(Alignment alignment, const std::string& recording, const std::string& reference) noexcept;
 
-/// Where a signer stands in a clip is measured over no more of its frames.
+/// Maximum number of a clip's frames over which its signer's standing is measured.
 inline constexpr std::int64_t kStandingFrames = 16'384;
 
-/// Where the signer stands over the core of a clip, wherever it is placed. Reads the core's frames, at most
+/// The standing of the signer over the core of a clip, independent of its position. Reads the core's frames, at most
 /// kStandingFrames, into `memory`. Throws Error{corrupt}.
 Standing standing_of(const PlacedClip& placed, const JunctionSettings& settings, Motion& memory);
 

@@ -18,18 +18,18 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// One selected candidate, or several that were neighbours in a recording and stay together.
-struct Part {
+/// One selected candidate, or several neighbours of a recording that stay together.
+struct ChosenClip {
   Candidate candidate;
   std::size_t place = 0;  ///< the first of its places, and so the number of the junction before it
   std::vector<std::size_t> sign_places = std::vector<std::size_t>(candidate.signs.size(), place);  ///< [sign]
 };
 
-/// Of neighbours whose junction is named the transition is made: who tells how it is to be made wants it so.
-std::vector<Part> merge_neighbours(const Contents& contents, const std::vector<Choice>& choices,
-                                   const Selection& selection, const JunctionChoices& named,
-                                   std::vector<Notice>& notices) {
-  std::vector<Part> merged;
+/// If the junction between neighbours is named, its transition is generated, because options were given for it.
+std::vector<ChosenClip> merge_neighbours(const Contents& contents, const std::vector<Choice>& choices,
+                                         const Selection& selection, const JunctionChoices& named,
+                                         std::vector<Notice>& notices) {
+  std::vector<ChosenClip> merged;
   for (std::size_t place = 0; place < choices.size(); ++place) {
     const Candidate& next = choices[place].candidates[selection.chosen[place]];
     const bool goes_on = !merged.empty() && choices[place].pause_before == Milliseconds(0) &&
@@ -41,8 +41,8 @@ std::vector<Part> merge_neighbours(const Contents& contents, const std::vector<C
     }
     if (goes_on) {
       notices.push_back({contents.recordings[next.recording].name,
-                         fmt::format("'{}' and '{}' were signed one after the other: what lies between is made all the "
-                                     "same, for junction {} is named",
+                         fmt::format("'{}' and '{}' are neighbours in the recording; the transition between them is "
+                                     "generated because junction {} is named",
                                      merged.back().candidate.signs.back().gloss, next.gloss(), place)});
     }
     merged.push_back({next, place});
@@ -54,12 +54,12 @@ void check_numbers(const JunctionChoices& named, std::size_t places) {
   if (named.empty() || named.rbegin()->first < places) return;
   const std::size_t junctions = places - 1;
   throw Error(ErrorCode::bad_input, fmt::format("no junction {}: there {}", named.rbegin()->first,
-                                                junctions == 0   ? "is none, for nothing is joined"
-                                                : junctions == 1 ? "is one alone, number 1"
+                                                junctions == 0   ? "is none, because nothing is joined"
+                                                : junctions == 1 ? "is only junction 1"
                                                                  : fmt::format("are {}, counted from 1", junctions)));
 }
 
-/// `edited` names the recording that an edit starts from; empty for an utterance.
+/// `edited` is the name of the edited recording; empty for an utterance.
 Synthesized run(const Snapshot& snapshot, std::vector<Choice> choices, std::string_view edited,
                 const SynthesisOptions& options, Clock::time_point start, Synthesis used) {
   const Contents& contents = snapshot.contents();
@@ -72,15 +72,16 @@ Synthesized run(const Snapshot& snapshot, std::vector<Choice> choices, std::stri
   if (made.choices.size() > 1) made.durations = durations_of(contents, *snapshot.learned(), options.duration);
   made.selection = select(snapshot, made.choices, {.transition = made.durations.mean, .explain = options.explain});
   std::vector<Notice> notices;
-  std::vector<Part> parts = merge_neighbours(contents, made.choices, made.selection, options.junctions, notices);
+  std::vector<ChosenClip> chosen_clips =
+      merge_neighbours(contents, made.choices, made.selection, options.junctions, notices);
   const auto selected = Clock::now();
 
   Seconds reading{0};
   std::map<std::size_t, std::shared_ptr<const MotionSource>> sources;
   std::vector<MotionClip> clips;
-  for (Part& part : parts) {
-    Candidate& candidate = part.candidate;
-    const auto named = options.junctions.find(part.place);
+  for (ChosenClip& chosen : chosen_clips) {
+    Candidate& candidate = chosen.candidate;
+    const auto named = options.junctions.find(chosen.place);
     const RecordingInfo& info = contents.recordings[candidate.recording];
     for (const Sign& sign : candidate.left_out) {
       notices.push_back(notice_left_out(info.name, sign));
@@ -93,11 +94,11 @@ Synthesized run(const Snapshot& snapshot, std::vector<Choice> choices, std::stri
                      .core = candidate.core,
                      .clock = info.clock,
                      .signs = std::move(candidate.signs),
-                     .pause_before = made.choices[part.place].pause_before,
+                     .pause_before = made.choices[chosen.place].pause_before,
                      .junction = named == options.junctions.end() ? JunctionChoice{} : named->second,
                      .fingerprint = info.motion_fingerprint,
-                     .place = part.place,
-                     .sign_places = std::move(part.sign_places),
+                     .place = chosen.place,
+                     .sign_places = std::move(chosen.sign_places),
                      .noise = snapshot.joins(candidate.recording)->noise});
   }
 

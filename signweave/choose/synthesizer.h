@@ -21,18 +21,18 @@ struct SynthesisOptions {
   const TransitionMethod* method = nullptr;  ///< null: the default
   DurationModel duration;
   double tempo = 1;               ///< kSlowestTempo to kFastestTempo
-  JunctionChoices junctions;      ///< what is told for one alone; those are made even between recorded neighbours
-  std::optional<FrameRate> rate;  ///< the highest of the sources where not given
+  JunctionChoices junctions;      ///< options of single junctions; these are made even between recorded neighbours
+  std::optional<FrameRate> rate;  ///< none: the highest rate of the sources
   Alignment alignment = Alignment::automatic;
-  std::int64_t most_frames = kMostFrames;  ///< a result that would have more is refused before a frame is read
+  std::int64_t most_frames = kMostFrames;  ///< longer results are rejected before a frame is read
   bool explain = false;                    ///< fill Selection::explained
 };
 
-/// Throws Error{bad_input} where an option is out of range; junctions that there are not are told when it is known how
-/// many there are.
+/// Throws Error{bad_input} if an option is out of range. Junction numbers that are too high are reported later, once
+/// the number of junctions is known.
 void check(const SynthesisOptions& options);
 
-/// How long each step took: the columns of the paper's Table 1.
+/// The duration of each step: the columns of the paper's Table 1.
 struct Timings {
   Seconds semantic_query{0};
   Seconds selection{0};
@@ -41,27 +41,26 @@ struct Timings {
   Seconds total{0};
 };
 
-/// A synthesis and how it came about.
+/// A synthesis with the choices made for it.
 struct Synthesized {
-  std::shared_ptr<const Contents> contents;  ///< what it was made from: candidates name its recordings
+  std::shared_ptr<const Contents> contents;  ///< its source; candidates refer to its recordings
   Synthesis result;
-  std::vector<Choice> choices;  ///< what there was to choose from
+  std::vector<Choice> choices;  ///< the candidates of each place
   Selection selection;
-  DurationFit durations;  ///< that the transitions were timed with; of a fixed duration only its mean is known
-  /// Captured transitions that the method had to go by; none where it asks for none.
+  DurationFit durations;  ///< used to time the transitions; for a fixed duration only the mean is set
+  /// Number of captured transitions available to the method; none if it needs none.
   std::optional<std::size_t> captured_transitions;
   Timings timings;
-  /// The recording that gave the skeleton: its file layout serves for writing BVH.
+  /// The recording that defines the skeleton; its file layout is used for writing BVH.
   std::string layout_from;
 };
 
-/// Signs an utterance: the few lines that call the rest. Throws MissingGlosses for glosses that the database lacks,
-/// Error{bad_input} for skeletons that cannot be joined, options out of range, a junction that there is not. `used` is
-/// an older result whose memory may be used again.
+/// Signs an utterance. Throws MissingGlosses for unknown glosses; Error{bad_input} for skeletons that cannot be joined,
+/// options out of range, and unknown junctions. `used` is an older result whose memory may be reused.
 Synthesized synthesize(const Database& database, const Utterance& utterance, const SynthesisOptions& options = {},
                        Synthesis used = {});
 
-/// Renders all of a score of this database's recordings; see OpenScore, which renders parts of one too.
+/// Renders all of a score of this database's recordings. OpenScore can render parts of one.
 Synthesized synthesize(const Database& database, const Score& score, Synthesis used = {});
 
 /// Edits a recording.

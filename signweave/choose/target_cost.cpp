@@ -12,8 +12,8 @@ float median_of(std::vector<float> values) {
   return *middle;
 }
 
-/// Raises each value to its deviation from the median, where that is more. A deviation of less than `least` is none,
-/// so that tokens that are nearly alike are not held against each other.
+/// Raises each value in `worst` to its deviation from the median, if that is larger. Deviations below `least` are
+/// ignored, so that nearly equal tokens are not penalized.
 void deviate(const std::vector<float>& values, float least, bool above_only, std::vector<float>& worst) {
   const float median = median_of(values);
   std::vector<float> distances;
@@ -25,7 +25,7 @@ void deviate(const std::vector<float>& values, float least, bool above_only, std
   }
 }
 
-/// The hands' places at one end, and their distance from the middle of all.
+/// The same for the hands' positions at one end, by their distance from the centre of all.
 void deviate_places(const std::vector<const JoinPoint*>& points, std::vector<float>& worst) {
   std::vector<float> distances(points.size());
   for (std::size_t value = JoinPoint::kPlace; value < JoinPoint::kVelocity; ++value) {
@@ -59,7 +59,7 @@ float cost_of(DefectKind kind) noexcept {
     case DefectKind::permuted_root:
     case DefectKind::scale:
       return 0.5f;
-    case DefectKind::quaternion_flip:  // one hemisphere is kept from frame to frame in what is stored
+    case DefectKind::quaternion_flip:  // stored motions stay in one hemisphere from frame to frame
       return 0;
   }
   return 0;

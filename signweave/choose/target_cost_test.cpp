@@ -24,7 +24,7 @@ std::vector<float> outliers(const std::vector<SignJoin>& joins) {
   return outliers_of(tokens);
 }
 
-TEST(Outliers, AreTokensFarFromWhatTheGlossIsLike) {
+TEST(Outliers, AreTokensFarFromTheMedian) {
   std::mt19937 random(1);
   std::vector<SignJoin> joins;
   for (int i = 0; i < 30; ++i) joins.push_back(usual(random));
@@ -41,7 +41,7 @@ TEST(Outliers, AreTokensFarFromWhatTheGlossIsLike) {
   }
 }
 
-TEST(Outliers, ThereAreNoneAmongFewOrAmongEqualOnes) {
+TEST(Outliers, NoneExistAmongFewOrEqualTokens) {
   std::mt19937 random(2);
   std::vector<SignJoin> joins;
   for (std::size_t i = 0; i + 1 < kFewestTokens; ++i) joins.push_back(usual(random));
@@ -51,7 +51,7 @@ TEST(Outliers, ThereAreNoneAmongFewOrAmongEqualOnes) {
   EXPECT_EQ(outliers(joins), std::vector<float>(20, 0));
 }
 
-TEST(Outliers, WhatIsNotKnownIsNone) {
+TEST(Outliers, UnknownTokensAreNoOutliers) {
   std::mt19937 random(3);
   std::vector<SignJoin> joins;
   for (int i = 0; i < 10; ++i) joins.push_back(usual(random));
@@ -64,13 +64,13 @@ TEST(Outliers, WhatIsNotKnownIsNone) {
   EXPECT_EQ(beyond[10], 0);
 }
 
-TEST(DefectCost, IsOfTheFramesAlone) {
+TEST(DefectCost, CountsOnlyTheGivenFrames) {
   const std::vector<Defect> defects = {{.kind = DefectKind::jump, .frames = {100, 110}, .text = {}},
                                        {.kind = DefectKind::jump, .frames = {112, 113}, .text = {}},
                                        {.kind = DefectKind::t_pose, .frames = {0, 50}, .text = {}},
                                        {.kind = DefectKind::quaternion_flip, .frames = {}, .text = {}}};
   EXPECT_EQ(defect_cost(defects, {50, 100}), 0);
-  EXPECT_EQ(defect_cost(defects, {90, 120}), cost_of(DefectKind::jump));  // twice the same kind counts once
+  EXPECT_EQ(defect_cost(defects, {90, 120}), cost_of(DefectKind::jump));  // the same kind counts once
   EXPECT_EQ(defect_cost(defects, {49, 101}), cost_of(DefectKind::jump) + cost_of(DefectKind::t_pose));
   const std::vector<Defect> whole = {{.kind = DefectKind::scale, .frames = {}, .text = {}}};
   EXPECT_EQ(defect_cost(whole, {5, 6}), cost_of(DefectKind::scale));

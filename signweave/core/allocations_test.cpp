@@ -1,4 +1,4 @@
-// The counter by which other modules' tests see that a path allocates nothing.
+// Tests the counter with which other modules' tests check that a code path allocates nothing.
 
 #include <gtest/gtest.h>
 
@@ -27,7 +27,7 @@ TEST(Allocations, AreCountedWithTheirBytes) {
   EXPECT_EQ(made.bytes, 1000u + sizeof(int));
 }
 
-TEST(Allocations, ThatMayFailAndThatAreAlignedAreCountedToo) {
+TEST(Allocations, NothrowAndAlignedOnesAreCounted) {
   struct alignas(64) Aligned {
     std::array<char, 64> bytes;
   };

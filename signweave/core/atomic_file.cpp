@@ -32,7 +32,7 @@ void AtomicFile::write(std::string_view text) {
 
 void AtomicFile::commit() {
   if (std::fflush(file_) != 0 || ::fsync(::fileno(file_)) != 0) fail("cannot be written");
-  if (std::rename(temporary_.c_str(), path_.c_str()) != 0) fail("cannot be put in place");
+  if (std::rename(temporary_.c_str(), path_.c_str()) != 0) fail("cannot be moved into place");
   std::fclose(file_);
   file_ = nullptr;
 }
@@ -69,7 +69,7 @@ std::string read_file(const std::filesystem::path& path, std::size_t most) {
     throw Error(ErrorCode::io, fmt::format("{}: cannot be read: {}", path.string(), std::strerror(fault)));
   if (text.size() > most) {
     throw Error(ErrorCode::bad_input,
-                fmt::format("{}: larger than {} bytes, which is more than such a file can need", path.string(), most));
+                fmt::format("{}: larger than {} bytes, the limit for such a file", path.string(), most));
   }
   return text;
 }

@@ -11,8 +11,8 @@
 
 namespace signweave {
 
-/// A file that appears whole or not at all: bytes go to a temporary file beside it, and `commit` flushes that to disk
-/// and renames it into place. Without `commit` nothing is left behind. Faults are Error{io, "PATH: …"}.
+/// A file that is written atomically: bytes go to a temporary file in the same folder, and `commit` flushes it to disk
+/// and renames it into place. Without `commit` nothing is left behind. Failures throw Error{io, "PATH: …"}.
 class AtomicFile {
  public:
   explicit AtomicFile(std::filesystem::path path);
@@ -31,12 +31,12 @@ class AtomicFile {
   std::FILE* file_ = nullptr;
 };
 
-/// Sends what a library writes to a stream on to such a file. It must outlive this; its faults pass through a stream
-/// whose exceptions include badbit.
+/// A stream buffer that forwards to an AtomicFile what a library writes to a stream. The file must outlive the buffer.
+/// Its errors pass through a stream whose exceptions include badbit.
 class AtomicFileBuffer : public std::streambuf {
  public:
   explicit AtomicFileBuffer(AtomicFile& file) : file_(file) {}
-  /// How many were written.
+  /// The number of bytes written.
   std::uint64_t bytes() const noexcept { return bytes_; }
 
  private:
@@ -47,11 +47,11 @@ class AtomicFileBuffer : public std::streambuf {
   std::uint64_t bytes_ = 0;
 };
 
-/// The whole of a file. Error{not_found} or Error{io} where it cannot be read; Error{bad_input} where it has more than
-/// `most` bytes.
+/// Returns the content of a file. Throws Error{not_found} or Error{io} if it cannot be read, Error{bad_input} if it is
+/// larger than `most` bytes.
 std::string read_file(const std::filesystem::path& path, std::size_t most = std::size_t{1} << 32);
 
-/// Checksum of a file's bytes, read through a window. Throws as read_file does.
+/// The checksum of a file's bytes, which are read in pieces. Throws as read_file does.
 std::uint64_t file_checksum(const std::filesystem::path& path);
 
 }  // namespace signweave

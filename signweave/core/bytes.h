@@ -14,8 +14,8 @@
 
 namespace signweave {
 
-// The only place that knows byte order: everything stored is little-endian. (Big-endian machines are refused here
-// rather than served wrong.)
+// The only place that depends on byte order: everything stored is little-endian. (On a big-endian machine the build
+// fails instead of storing wrong bytes.)
 static_assert(std::endian::native == std::endian::little, "signweave stores little-endian and does not swap yet");
 
 using Bytes = std::vector<std::byte>;
@@ -28,10 +28,10 @@ inline std::string_view text_of(ByteSpan bytes) noexcept {
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
-/// 64-bit XXH3 of some bytes: the checksum of everything stored. Not a cryptographic hash.
+/// The 64-bit XXH3 of some bytes: the checksum of everything stored. Not a cryptographic hash.
 std::uint64_t checksum(ByteSpan bytes) noexcept;
 
-/// Appends numbers and texts to a byte string. Texts are a u32 length and the bytes.
+/// Appends numbers and texts to a byte string. A text is stored as a u32 length and its bytes.
 class ByteWriter {
  public:
   template <typename T>
@@ -52,10 +52,10 @@ class ByteWriter {
   Bytes bytes_;
 };
 
-/// Reads what a ByteWriter wrote. Every read is bounds-checked and throws Error{corrupt, "WHERE: …"}.
+/// Reads what a ByteWriter wrote. Every read is bounds-checked and throws Error{corrupt, "WHERE: …"} on failure.
 class ByteReader {
  public:
-  /// Borrows `bytes`; `where` names them in an error.
+  /// Borrows `bytes`; `where` identifies them in an error.
   ByteReader(ByteSpan bytes, std::string where) : bytes_(bytes), where_(std::move(where)) {}
 
   template <typename T>
@@ -68,8 +68,8 @@ class ByteReader {
     const auto size = number<std::uint32_t>();
     return std::string(text_of(take(size)));
   }
-  /// A count of things that take at least `smallest` bytes each: refused where the rest cannot hold them, so that a
-  /// damaged count never becomes a huge allocation.
+  /// Reads a count of items that take at least `smallest` bytes each. Throws if the remaining bytes cannot hold them,
+  /// so that a damaged count never causes a huge allocation.
   std::size_t count(std::size_t smallest) {
     const auto count = number<std::uint32_t>();
     if (static_cast<std::uint64_t>(count) * smallest > bytes_.size()) fail("a count larger than the record");
@@ -82,7 +82,7 @@ class ByteReader {
     return result;
   }
   std::size_t left() const noexcept { return bytes_.size(); }
-  /// Throws unless everything was read.
+  /// Throws if any bytes are left.
   void finish() {
     if (!bytes_.empty()) fail("bytes are left over");
   }

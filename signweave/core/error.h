@@ -7,16 +7,16 @@
 
 namespace signweave {
 
-/// What kind of fault an `Error` is. The command line turns it into an exit status, a server into an HTTP status.
+/// The kind of an `Error`. The command line maps it to an exit status, the server to an HTTP status.
 enum class ErrorCode {
-  bad_input,       ///< a file, text or option from outside is wrong
-  not_found,       ///< what was named does not exist
-  already_exists,  ///< what was to be made is there already
-  conflict,        ///< somebody else is changing it now
-  corrupt,         ///< stored bytes are damaged
-  unsupported,     ///< understood, but this version cannot do it
-  io,              ///< the operating system refused (disk full, no permission)
-  cancelled,       ///< stopped on request, or by a deadline
+  bad_input,       ///< invalid input: a file, a text or an option
+  not_found,       ///< the named item does not exist
+  already_exists,  ///< the item to be created already exists
+  conflict,        ///< another process or thread is using it
+  corrupt,         ///< stored data is damaged
+  unsupported,     ///< valid, but this version does not support it
+  io,              ///< the operating system reported an error (disk full, no permission)
+  cancelled,       ///< stopped on request or by a deadline
 };
 
 /// A parameter of the call that would fix what an `Error` or a `Notice` reports. The library names it as the call's
@@ -29,8 +29,8 @@ struct Remedy {
 /// Those with a value are set together; of those without one any may do.
 using Remedies = std::vector<Remedy>;
 
-/// A fault in input, files or stored bytes: never in our own logic (that is an assert).
-/// The text is one line: "FILE:LINE: what is wrong, and what would mend it". Parts that do not apply are left out.
+/// An error in input, files or stored data; errors in the program's own logic are asserts. The text is one line:
+/// "FILE:LINE: what is wrong, and how to fix it". Parts that do not apply are left out.
 class Error : public std::runtime_error {
  public:
   Error(ErrorCode code, const std::string& text, Remedies remedies = {})
@@ -43,7 +43,7 @@ class Error : public std::runtime_error {
   Remedies remedies_;
 };
 
-/// Something that the user should know of and that stopped nothing: a guess, a repair, an oddity of a file.
+/// Information for the user about something that stopped nothing: a guess, a repair, an oddity of a file.
 struct Notice {
   std::string where;  ///< "FILE" or "FILE:LINE" or a recording's name
   std::string text;   ///< one line, without a full stop

@@ -4,8 +4,8 @@
 
 namespace signweave {
 
-/// Has the processor bring these bytes near, so that who reads or writes them soon does not wait for memory. They need
-/// not be there: nothing is read.
+/// Asks the processor to load these bytes into its cache ahead of their use. The address need not be valid: nothing is
+/// read.
 inline void prefetch(const void* from, std::size_t bytes) noexcept {
   constexpr std::size_t kLine = 64;
   const char* const begin = static_cast<const char*>(from);

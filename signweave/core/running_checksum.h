@@ -7,12 +7,12 @@
 
 namespace signweave {
 
-/// `checksum` of bytes that come piece by piece.
+/// Computes `checksum` of bytes that arrive in pieces.
 class RunningChecksum {
  public:
   RunningChecksum();
   void add(ByteSpan bytes) noexcept;
-  /// Of all that was added; more may be added afterwards.
+  /// The checksum of all bytes added so far; more may be added afterwards.
   std::uint64_t value() const noexcept;
 
  private:

@@ -4,7 +4,7 @@
 #include <cstdlib>
 #include <new>
 
-// Clang's thread sanitizer has an operator new of its own, which reports every allocation.
+// Clang's thread sanitizer has its own operator new, which reports every allocation.
 #ifdef __has_feature
 #if __has_feature(thread_sanitizer)
 #define SIGNWEAVE_ALLOCATIONS_REPORTED
@@ -13,7 +13,7 @@
 #endif
 
 #if defined(__GNUC__) && !defined(__clang__)
-// What is allocated here is freed here; at some levels of optimisation GCC sees only one of the two.
+// Allocation and release match here, but at some optimisation levels GCC sees only one of the two.
 #pragma GCC diagnostic ignored "-Wmismatched-new-delete"
 #endif
 
@@ -67,7 +67,7 @@ void* operator new(std::size_t size, std::align_val_t alignment) {
 void* operator new[](std::size_t size, std::align_val_t alignment) {
   return checked(allocate(size, alignment));
 }
-// The library's temporary buffers ask in this way, and give back in the ordinary one.
+// The library's temporary buffers are allocated this way and freed with the ordinary operator.
 void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
   return allocate(size);
 }

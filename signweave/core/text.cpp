@@ -24,7 +24,7 @@ std::string mapped(std::string_view text, int options) {
   const utf8proc_ssize_t size = utf8proc_map(bytes, static_cast<utf8proc_ssize_t>(text.size()), &result,
                                              static_cast<utf8proc_option_t>(UTF8PROC_STABLE | options));
   const std::unique_ptr<utf8proc_uint8_t, Free> owner(result);
-  if (size < 0) return std::string(text);  // not UTF-8: compared byte by byte
+  if (size < 0) return std::string(text);  // not UTF-8: compared bytewise
   return {reinterpret_cast<const char*>(result), static_cast<std::size_t>(size)};
 }
 
@@ -46,7 +46,7 @@ std::vector<utf8proc_int32_t> letters(std::string_view text) {
   return result;
 }
 
-/// Levenshtein distance, with a swap of two neighbours as one step.
+/// Levenshtein distance in which a swap of two neighbours counts as one step.
 std::size_t edit_distance(const std::vector<utf8proc_int32_t>& a, const std::vector<utf8proc_int32_t>& b) {
   std::vector<std::size_t> before(b.size() + 1);
   std::vector<std::size_t> last(b.size() + 1);
@@ -78,7 +78,7 @@ bool is_utf8(std::string_view text) noexcept {
   const auto* at = reinterpret_cast<const utf8proc_uint8_t*>(text.data());
   auto left = static_cast<utf8proc_ssize_t>(text.size());
   while (left > 0) {
-    // Many letters of ASCII at a time, which most text is.
+    // Checks many ASCII letters at once, since most text is ASCII.
     std::array<std::uint64_t, 4> many{};
     for (; left >= 32; at += 32, left -= 32) {
       std::memcpy(many.data(), at, sizeof many);
@@ -117,7 +117,7 @@ std::string loose_form(std::string_view label) {
     utf8proc_int32_t letter = -1;
     utf8proc_ssize_t used = utf8proc_iterate(reinterpret_cast<const utf8proc_uint8_t*>(rest.data()),
                                              static_cast<utf8proc_ssize_t>(rest.size()), &letter);
-    if (used < 1) used = 1, letter = 0xFFFD;  // not UTF-8: as it is
+    if (used < 1) used = 1, letter = 0xFFFD;  // not UTF-8: unchanged
     at += static_cast<std::size_t>(used);
     if (letter >= 0x300 && letter <= 0x36F) continue;
     if (letter == ' ' || (letter >= '\t' && letter <= '\r')) {
@@ -138,7 +138,7 @@ std::string loose_form(std::string_view label) {
 
 std::vector<std::string> near_matches(std::string_view wanted, std::span<const std::string> known, std::size_t most) {
   const std::vector<utf8proc_int32_t> target = letters(fold_case(match_form(wanted)));
-  const std::size_t farthest = (target.size() + 1) / 3;  // one letter is near no other
+  const std::size_t farthest = (target.size() + 1) / 3;  // for a single letter nothing is near
   if (target.empty()) return {};
   struct Near {
     std::size_t distance;

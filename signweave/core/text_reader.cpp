@@ -34,9 +34,9 @@ Kind kind_of(char c) noexcept {
   return kKinds[static_cast<unsigned char>(c)];
 }
 
-/// True where a number that no double can hold is too small rather than too large.
+/// True if a number that does not fit a double is too small rather than too large.
 bool underflows(std::string_view text) noexcept {
-  long long power = 0;  // of ten, of the first digit that is not 0
+  long long power = 0;  // the power of ten of the first nonzero digit
   bool point = false;
   bool digits = false;
   std::size_t i = 0;
@@ -77,8 +77,8 @@ TextReader::TextReader(const std::filesystem::path& path) : name_(path.string())
     }
     if (S_ISREG(about.st_mode)) total_bytes_ = static_cast<std::size_t>(about.st_size);
   }
-  // No larger than the file, so that small ones cost little. One byte more: the read that fills the window ends the
-  // file.
+  // No larger than the file, so that small files cost little. One extra byte: the read that fills the window then also
+  // detects the end of the file.
   window_size_ = total_bytes_ == 0 ? kWindow : std::min(kWindow, total_bytes_ + 1);
   window_ = std::make_unique_for_overwrite<char[]>(window_size_);
   fill();
@@ -110,7 +110,7 @@ bool TextReader::fill() {
   return got > 0;
 }
 
-int TextReader::look() {
+int TextReader::peek_char() {
   if (text_.empty() && !fill()) return -1;
   return static_cast<unsigned char>(text_.front());
 }
@@ -120,7 +120,7 @@ void TextReader::consume(std::size_t bytes) noexcept {
   consumed_ += bytes;
 }
 
-/// Counts lines; a CR counts at once, and the LF after it no more.
+/// Counts lines. A CR counts at once, and an LF after it does not count again.
 void TextReader::step_over(char c) noexcept {
   if (c == '\r' || (c == '\n' && !after_return_)) ++current_line_;
   after_return_ = c == '\r';
@@ -141,15 +141,15 @@ std::string_view TextReader::word() {
   line_ = current_line_;
   after_return_ = false;
 
-  // Nearly every word lies in the window whole and is returned from there; only one at its edge is put together.
+  // Nearly every word is complete in the window and returned from there; only a word at its edge is assembled.
   word_ = {};
   bool joined = false;
   while (!text_.empty()) {
     std::size_t size = 0;
     while (size < text_.size() && kind_of(text_[size]) == Kind::letter) ++size;
-    if (size < text_.size() && text_[size] == '\0') fail("a NUL byte: this is no text file");
+    if (size < text_.size() && text_[size] == '\0') fail("a NUL byte: this is not a text file");
     if (size + (joined ? joined_.size() : 0) > kLongestWord) {
-      fail("a word of more than 64 KiB: this is no file of the expected kind");
+      fail("a word of more than 64 KiB: this is not a file of the expected kind");
     }
     const std::string_view part = text_.substr(0, size);
     const bool whole = size < text_.size() || file_ < 0;
@@ -179,15 +179,15 @@ std::string_view TextReader::rest_of_line() {
   std::string line = peeked_ ? std::string(word_) : std::string();
   if (!peeked_) line_ = current_line_;
   peeked_ = false;
-  // Nearly every line ends in the window. What does not, and the line's end, is read letter by letter.
+  // Nearly every line ends in the window. Any other line, and the line end, is read letter by letter.
   const std::size_t plain = std::min(text_.size(), kLongestWord - std::min(kLongestWord, line.size()));
   std::size_t size = 0;
   while (size < plain && text_[size] != '\n' && text_[size] != '\r' && text_[size] != '\0') ++size;
   line += text_.substr(0, size);
   consume(size);
-  int c = look();
-  for (; c >= 0 && c != '\n' && c != '\r'; c = look()) {
-    if (c == 0) fail("a NUL byte: this is no text file");
+  int c = peek_char();
+  for (; c >= 0 && c != '\n' && c != '\r'; c = peek_char()) {
+    if (c == 0) fail("a NUL byte: this is not a text file");
     if (line.size() == kLongestWord) fail("a line of more than 64 KiB where a name was expected");
     line += static_cast<char>(c);
     consume(1);
@@ -195,7 +195,7 @@ std::string_view TextReader::rest_of_line() {
   if (c >= 0) {
     step_over(static_cast<char>(c));
     consume(1);
-    if (c == '\r' && look() == '\n') consume(1);
+    if (c == '\r' && peek_char() == '\n') consume(1);
     after_return_ = false;
   }
   joined_ = trimmed(line);
@@ -210,7 +210,7 @@ double TextReader::number(std::string_view what) {
   double value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (error == std::errc::result_out_of_range && end == text.data() + text.size()) {
-    // Too small for a double is as good as 0; too large is as bad as infinite.
+    // A number too small for a double counts as 0; one too large is as bad as infinity.
     if (underflows(text)) return 0.0;
     fail(fmt::format("'{}' is too large, expected {}", printable(word_), what));
   }

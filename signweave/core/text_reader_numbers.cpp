@@ -1,5 +1,5 @@
-// The fast way of TextReader: runs of plain numbers, as motion files hold by the million. Whatever is not plain is left
-// to TextReader::number, which knows every oddity and every message.
+// The fast path of TextReader: runs of plain numbers, which motion files contain by the million. Anything that is not
+// plain is left to TextReader::number, which handles every oddity and has all messages.
 
 #include <array>
 #include <bit>
@@ -17,21 +17,21 @@
 namespace signweave {
 namespace {
 
-constexpr std::size_t kLooked = 16;       ///< characters of a word that are looked at in one go
-constexpr std::size_t kMargin = 32;       ///< bytes past a word's begin that must be there to be looked at
-constexpr std::ptrdiff_t kLongest = 256;  ///< longer words are no numbers that anybody measured
+constexpr std::size_t kInspected = 16;    ///< characters of a word that are inspected at once
+constexpr std::size_t kMargin = 32;       ///< bytes from a word's start that must be readable
+constexpr std::ptrdiff_t kLongest = 256;  ///< longer words are not measured numbers
 
 constexpr bool is_blank(char c) noexcept {
   return c == ' ' || (c >= '\t' && c <= '\r');
 }
 
-/// The powers of ten that a double holds exactly.
+/// The powers of ten that a double represents exactly.
 constexpr std::array<double, 23> kPowers = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,  1e8,  1e9,  1e10, 1e11,
                                             1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
 constexpr std::array<std::uint64_t, 9> kWholePowers = {1,       10,        100,        1'000,      10'000,
                                                        100'000, 1'000'000, 10'000'000, 100'000'000};
 
-/// Bit i is set where character i of the sixteen at `text` is no digit; the bits above are set too.
+/// Bit i is set if character i of the sixteen at `text` is not a digit; the bits above are set, too.
 std::uint32_t not_digits(const char* text) noexcept {
 #if defined(__SSE2__)
   __m128i letters;
@@ -42,14 +42,14 @@ std::uint32_t not_digits(const char* text) noexcept {
   return static_cast<std::uint32_t>(_mm_movemask_epi8(others)) | 0xFFFF0000u;
 #else
   std::uint32_t bits = 0xFFFF0000u;
-  for (std::size_t i = 0; i < kLooked; ++i) {
+  for (std::size_t i = 0; i < kInspected; ++i) {
     bits |= static_cast<std::uint32_t>(static_cast<unsigned char>(text[i] - '0') > 9) << i;
   }
   return bits;
 #endif
 }
 
-/// The bytes at `text`, the first in the lowest eight bits.
+/// Loads the bytes at `text`, the first into the lowest eight bits.
 std::uint64_t eight_bytes(const char* text) noexcept {
   std::uint64_t bytes = 0;
   if constexpr (std::endian::native == std::endian::little) {
@@ -60,10 +60,11 @@ std::uint64_t eight_bytes(const char* text) noexcept {
   return bytes;
 }
 
-/// The number that the first `count` (at most 8) of eight bytes spell, all digits: pairs, then fours, then all eight.
+/// The number spelled by the first `count` (at most 8) of eight bytes, all digits: combines pairs, then fours, then all
+/// eight.
 std::uint64_t number_of(std::uint64_t bytes, unsigned count) noexcept {
   std::uint64_t digits = bytes ^ 0x3030303030303030u;
-  digits = count == 0 ? 0 : digits << (64 - 8 * count);  // what is missing becomes zeros in front
+  digits = count == 0 ? 0 : digits << (64 - 8 * count);  // missing digits become leading zeros
   digits = (digits & 0x00FF00FF00FF00FFu) * 10 + ((digits >> 8) & 0x00FF00FF00FF00FFu);
   digits = (digits & 0x0000FFFF0000FFFFu) * 100 + ((digits >> 16) & 0x0000FFFF0000FFFFu);
   return (digits & 0xFFFFFFFFu) * 10'000 + (digits >> 32);
@@ -71,10 +72,10 @@ std::uint64_t number_of(std::uint64_t bytes, unsigned count) noexcept {
 
 struct Scanned {
   double value = 0;
-  const char* end = nullptr;  ///< null where the word is no plain number
+  const char* end = nullptr;  ///< null if the word is not a plain number
 };
 
-/// "e-06" at `text`: adds it to `power`. Returns its end, or null.
+/// Parses an exponent such as "e-06" at `text` and adds it to `power`. Returns its end, or null.
 const char* read_exponent(const char* text, int& power) noexcept {
   ++text;
   const bool negative = *text == '-';
@@ -86,9 +87,9 @@ const char* read_exponent(const char* text, int& power) noexcept {
   return digits == 0 ? nullptr : text;
 }
 
-/// A number of at most eight digits before and eight after its point, rounded correctly: its digits are a whole number
-/// below 2^53 and its power of ten is exact, so that one division (or multiplication) rounds once. kMargin bytes must
-/// be there.
+/// Parses a number of at most eight digits before and eight after its point, correctly rounded: its digits are a whole
+/// number below 2^53 and its power of ten is exact, so one division (or multiplication) rounds once. kMargin bytes must
+/// be readable.
 Scanned scan_short(const char* word) noexcept {
   const bool negative = *word == '-';
   const unsigned sign = negative ? 1 : 0;
@@ -104,7 +105,7 @@ Scanned scan_short(const char* word) noexcept {
   if (word[point] == '.') {
     end = static_cast<unsigned>(std::countr_zero(others & (others - 1)));
     decimals = end - point - 1;
-    if (end >= kLooked || decimals > 8) return {};
+    if (end >= kInspected || decimals > 8) return {};
     mantissa = mantissa * kWholePowers[decimals] + number_of(eight_bytes(word + point + 1), decimals);
   }
   if (point - sign + decimals == 0) return {};
@@ -122,7 +123,7 @@ Scanned scan_short(const char* word) noexcept {
   return {negative ? -value : value, after};
 }
 
-/// Any other number that the standard library reads at a stroke.
+/// Parses any other number that the standard library reads completely.
 Scanned scan_any(const char* word, const char* end) noexcept {
   Scanned scanned;
   const auto [after, error] = std::from_chars(word, end, scanned.value);
@@ -137,7 +138,7 @@ TextReader::NumberRun TextReader::plain_numbers(std::span<double> numbers, doubl
   if (peeked_ || text_.size() <= kMargin) return run;
   const char* const begin = text_.data();
   const char* const end = begin + text_.size();
-  const char* const last = end - kMargin;  // no word that begins here or later is looked at
+  const char* const last = end - kMargin;  // words that start here or later are not inspected
   const char* at = begin;
   std::size_t line = current_line_;
   bool after_return = after_return_;

@@ -18,7 +18,7 @@ namespace {
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-/// A word and the line it stands on.
+/// A word and the line that it is on.
 struct Found {
   std::string word;
   std::size_t line;
@@ -49,7 +49,7 @@ std::string fault_of(std::string_view text, double* value = nullptr) {
   return {};
 }
 
-/// A file that is gone when the test is.
+/// A file that exists as long as the test.
 class TemporaryFile {
  public:
   explicit TemporaryFile(std::string_view text)
@@ -70,11 +70,11 @@ TEST(TextReader, EveryKindOfLineEndCountsOnce) {
               ElementsAre(Found{"a", 1}, Found{"b", 2}, Found{"c", 3}, Found{"d", 4}, Found{"e", 6}, Found{"f", 8}));
 }
 
-TEST(TextReader, WordsArePartedByAnyWhiteSpace) {
+TEST(TextReader, WordsAreSeparatedByAnyWhiteSpace) {
   EXPECT_THAT(words_of("\t a\t\vb\f c  "), ElementsAre(Found{"a", 1}, Found{"b", 1}, Found{"c", 1}));
 }
 
-TEST(TextReader, AByteOrderMarkIsNoPartOfTheFirstWord) {
+TEST(TextReader, AByteOrderMarkIsNotPartOfTheFirstWord) {
   EXPECT_THAT(words_of("\xEF\xBB\xBFhello"), ElementsAre(Found{"hello", 1}));
 }
 
@@ -89,7 +89,7 @@ TEST(TextReader, APeekedWordIsReadOnce) {
   EXPECT_EQ(reader.peek(), "");
 }
 
-TEST(TextReader, TheRestOfALineKeepsItsInnerBlanksAndEndsBeforeTheNext) {
+TEST(TextReader, TheRestOfALinePreservesInnerBlanksAndEndsBeforeTheNext) {
   TextReader reader("f", "JOINT  left  hand \t\r\nnext\r\n\r\nlast");
   EXPECT_EQ(reader.word(), "JOINT");
   EXPECT_EQ(reader.rest_of_line(), "left  hand");
@@ -103,7 +103,7 @@ TEST(TextReader, TheRestOfALineKeepsItsInnerBlanksAndEndsBeforeTheNext) {
   EXPECT_EQ(reader.rest_of_line(), "");
 }
 
-TEST(TextReader, ANumberMayBeWrittenInEveryUsualWay) {
+TEST(TextReader, ANumberMayHaveAnyUsualNotation) {
   const std::vector<std::pair<std::string, double>> cases = {
       {"1", 1},      {"-0.5", -0.5}, {"+7.25", 7.25},     {".5", 0.5},         {"5.", 5},
       {"1e3", 1000}, {"1E+2", 100},  {"5.1e-06", 5.1e-6}, {"-1.5E-2", -0.015}, {"000.25", 0.25}};
@@ -122,7 +122,7 @@ TEST(TextReader, ANumberTooSmallForADoubleIsZero) {
   }
 }
 
-TEST(TextReader, WhatIsNoFiniteNumberIsRefusedWithItsLine) {
+TEST(TextReader, OtherWordsThanFiniteNumbersAreRefusedWithTheirLine) {
   for (const char* text : {"nan", "NaN", "inf", "-inf", "1e400", "0.001e500", "1.#QNAN", "0,5", "1.5f", "+-5", "++5",
                            "-", "+", "0x10", "1e", "twelve"}) {
     EXPECT_THAT(fault_of("\n" + std::string(text)), testing::StartsWith("f:2: ")) << text;
@@ -130,7 +130,7 @@ TEST(TextReader, WhatIsNoFiniteNumberIsRefusedWithItsLine) {
   EXPECT_EQ(fault_of(""), "f:1: the file ends here, expected a number");
 }
 
-TEST(TextReader, ANulByteIsAFault) {
+TEST(TextReader, ANulByteIsAnError) {
   using namespace std::string_view_literals;
   TextReader reader("f", "ab\0c"sv);
   EXPECT_THROW(reader.word(), Error);
@@ -139,7 +139,7 @@ TEST(TextReader, ANulByteIsAFault) {
   EXPECT_THROW(line.rest_of_line(), Error);
 }
 
-TEST(TextReader, AnEndlessWordIsAFaultWhereverItEnds) {
+TEST(TextReader, AnOverlongWordIsAnErrorWhereverItEnds) {
   const std::string longest(65'536, 'x');
   EXPECT_THAT(words_of(longest), ElementsAre(Found{longest, 1}));
   const std::string too_long = "a " + longest + "xx";
@@ -164,7 +164,8 @@ TEST(TextReader, ExpectNamesWhatItFound) {
   }
 }
 
-/// All numbers of a text, by runs of at most `most_at_once` and, where they stop, one by one. Counts those in runs.
+/// Reads all numbers of a text in runs of at most `most_at_once`, and one by one where a run stops. Counts those in
+/// runs.
 struct NumbersFound {
   std::vector<double> numbers;
   std::vector<std::size_t> lines;
@@ -189,8 +190,8 @@ NumbersFound numbers_of(TextReader& reader, std::size_t most_at_once) {
   }
 }
 
-// What a run reads must be the same bits as number by number: rounded once, from every way to write a number.
-RC_GTEST_PROP(TextReader, ARunOfNumbersReadsAsTheNumbersDo, ()) {
+// A run must give the same bits as reading number by number: correctly rounded, in every notation.
+RC_GTEST_PROP(TextReader, ARunEqualsNumbersReadOneByOne, ()) {
   auto state = static_cast<std::uint32_t>(*rc::gen::inRange(0, 1 << 30));
   const auto next = [&](std::uint32_t most) {
     state = state * 1'664'525u + 1'013'904'223u;
@@ -242,7 +243,7 @@ TEST(TextReader, RunsOfNumbersCrossTheEdgesOfTheWindow) {
   EXPECT_EQ(reader.line(), slow.line());
 }
 
-TEST(TextReader, ARunStopsBeforeWhatIsNoPlainNumber) {
+TEST(TextReader, ARunStopsBeforeAWordThatIsNotAPlainNumber) {
   const std::string rest(64, ' ');
   for (const std::string word : {"nan", "inf", "1,5", "1.5f", "1.5.5", "--5", "-", ".", "-.", "e5", "1e", "1e+", "0x10",
                                  "1e999", "5-", "twelve"}) {
@@ -258,7 +259,7 @@ TEST(TextReader, ARunStopsBeforeWhatIsNoPlainNumber) {
   }
 }
 
-TEST(TextReader, ARunHoldsNoNumberThatIsTooLarge) {
+TEST(TextReader, ARunContainsNoNumberThatIsTooLarge) {
   const std::string text = "999 -1000 1000.001 5" + std::string(64, ' ');
   TextReader reader("f", text);
   std::vector<double> numbers(4);
@@ -266,7 +267,7 @@ TEST(TextReader, ARunHoldsNoNumberThatIsTooLarge) {
   EXPECT_EQ(reader.word(), "1000.001");
 }
 
-TEST(TextReader, ARunWaitsForAPeekedWord) {
+TEST(TextReader, ARunDoesNotSkipAPeekedWord) {
   const std::string text = "1 2 3" + std::string(64, ' ');
   TextReader reader("f", text);
   EXPECT_EQ(reader.peek(), "1");
@@ -276,7 +277,7 @@ TEST(TextReader, ARunWaitsForAPeekedWord) {
   EXPECT_EQ(reader.plain_numbers(numbers, 10).count, 2u);
 }
 
-TEST(TextReader, AFileThatIsNotThereIsNotFound) {
+TEST(TextReader, AMissingFileIsNotFound) {
   try {
     TextReader reader(std::filesystem::path("/nowhere/at/all"));
     FAIL();
@@ -294,8 +295,8 @@ TEST(TextReader, BytesReadReachTheSizeOfTheFile) {
   EXPECT_EQ(reader.bytes_read(), 19u);
 }
 
-// Words, line ends and lines that straddle the edge of the window are the hard part, and a window is 256 KiB.
-RC_GTEST_PROP(TextReader, AFileReadsAsItsTextDoes, ()) {
+// The difficult cases are words, line ends and lines that cross the edge of the window, which has 256 KiB.
+RC_GTEST_PROP(TextReader, AFileGivesTheSameWordsAsItsText, ()) {
   const auto seed = *rc::gen::inRange(0, 1 << 30);
   const std::vector<std::string> gaps = {" ", "\n", "\r\n", "\r", "\t", "\r\n\r\n", " \r \n"};
   std::string text;

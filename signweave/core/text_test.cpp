@@ -12,7 +12,7 @@ namespace {
 using testing::ElementsAre;
 using testing::IsEmpty;
 
-TEST(MatchForm, ComposedAndDecomposedLettersAreOne) {
+TEST(MatchForm, ComposedAndDecomposedLettersAreEqual) {
   EXPECT_EQ(match_form("e\xCC\x81t\xC3\xA9"), match_form("\xC3\xA9te\xCC\x81"));
 }
 
@@ -22,11 +22,11 @@ TEST(MatchForm, BlanksAtTheEndsDoNotCountAndInnerOnesDo) {
   EXPECT_NE(match_form("a"), match_form("A"));
 }
 
-TEST(MatchForm, BytesThatAreNotUtf8ComeBackTrimmed) {
+TEST(MatchForm, BytesThatAreNotUtf8AreOnlyTrimmed) {
   EXPECT_EQ(match_form(" \xE9t\xE9 "), "\xE9t\xE9");
 }
 
-TEST(IsUtf8, RefusesWhatNoLetterIsWrittenAs) {
+TEST(IsUtf8, RefusesInvalidSequences) {
   EXPECT_TRUE(is_utf8(""));
   EXPECT_TRUE(is_utf8("手話 été"));
   EXPECT_FALSE(is_utf8("\xE9"));
@@ -50,11 +50,11 @@ TEST(LooseForm, SpellingDoesNotMatter) {
   EXPECT_EQ(loose_form("Straße"), "strasse");
   EXPECT_EQ(loose_form("手話"), "手話");
   EXPECT_NE(loose_form("が"), loose_form("た"));
-  EXPECT_EQ(loose_form("\xE9t\xE9 A"), "\xE9t\xE9 A") << "not UTF-8: as it is";
+  EXPECT_EQ(loose_form("\xE9t\xE9 A"), "\xE9t\xE9 A") << "not UTF-8: unchanged";
   EXPECT_EQ(loose_form(" \t"), "");
 }
 
-TEST(NearMatches, TheNearestComesFirstAndTheFarIsLeftOut) {
+TEST(NearMatches, TheNearestComesFirstAndDistantOnesAreLeftOut) {
   const std::vector<std::string> known = {"VANNES", "VENISE", "PLUIE", "VANNE"};
   EXPECT_THAT(near_matches("VANES", known), ElementsAre("VANNES", "VANNE"));
   EXPECT_THAT(near_matches("vannes", known), ElementsAre("VANNES", "VANNE"));
@@ -65,27 +65,27 @@ TEST(NearMatches, TwoLettersSwappedAreOneStep) {
   EXPECT_THAT(near_matches("ab", std::vector<std::string>{"ba"}), ElementsAre("ba"));
 }
 
-TEST(NearMatches, AtMostThatManyAreGivenAndNoneTwice) {
+TEST(NearMatches, ReturnsAtMostTheLimitAndNoDuplicates) {
   const std::vector<std::string> known = {"aaaa1", "aaaa2", "aaaa2", "aaaa3", "aaaa4"};
   EXPECT_THAT(near_matches("aaaa", known, 2), ElementsAre("aaaa1", "aaaa2"));
   EXPECT_THAT(near_matches("aaaa", known, 3), ElementsAre("aaaa1", "aaaa2", "aaaa3"));
 }
 
-TEST(EitherOf, JoinsNamesAsASentenceDoes) {
+TEST(EitherOf, JoinsNamesAsInASentence) {
   EXPECT_EQ(either_of({}), "");
   EXPECT_EQ(either_of(std::vector<std::string>{"A"}), "A");
   EXPECT_EQ(either_of(std::vector<std::string>{"A", "B"}), "A or B");
   EXPECT_EQ(either_of(std::vector<std::string>{"A", "B", "C"}), "A, B or C");
 }
 
-TEST(DidYouMean, IsTheEndOfASentenceOrNothing) {
+TEST(DidYouMean, IsTheEndOfASentenceOrEmpty) {
   EXPECT_EQ(did_you_mean("stroek", std::vector<std::string>{"stroke"}), "; did you mean stroke?");
   EXPECT_EQ(did_you_mean("aaaa", std::vector<std::string>{"aaa1", "aaa2", "aaa3"}),
             "; did you mean aaa1, aaa2 or aaa3?");
   EXPECT_EQ(did_you_mean("xyz", std::vector<std::string>{"stroke"}), "");
 }
 
-TEST(Printable, StaysOnOneLineAndEnds) {
+TEST(Printable, StaysOnOneLineAndIsCut) {
   EXPECT_EQ(printable("a\nb\x01"), "a\\x0ab\\x01");
   EXPECT_EQ(printable(std::string(100, 'a')), std::string(80, 'a') + "…");
   std::string accents;
@@ -94,7 +94,7 @@ TEST(Printable, StaysOnOneLineAndEnds) {
   EXPECT_TRUE(is_utf8(cut)) << "a letter was cut in two";
 }
 
-TEST(Trimmed, TakesWhiteSpaceFromBothEnds) {
+TEST(Trimmed, RemovesWhiteSpaceFromBothEnds) {
   EXPECT_EQ(trimmed(" \t\r\n a b \v\f"), "a b");
   EXPECT_EQ(trimmed(" \t"), "");
   EXPECT_EQ(trimmed(""), "");

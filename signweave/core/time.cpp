@@ -18,7 +18,8 @@ FrameRate reduced(std::int64_t numerator, std::int64_t denominator) {
   return {numerator / divisor, denominator / divisor};
 }
 
-/// A decimal number as digits · 10^-decimals, exact; none where it has more than 17 significant digits or is no number.
+/// A decimal number as digits · 10^-decimals, exact; empty if it has more than 17 significant digits or is not a
+/// number.
 struct Decimal {
   std::int64_t digits = 0;
   int decimals = 0;
@@ -71,10 +72,10 @@ constexpr std::array kWholeRates = {
 constexpr std::array kNtscRates = {FrameRate{24000, 1001}, FrameRate{30000, 1001}, FrameRate{48000, 1001},
                                    FrameRate{60000, 1001}, FrameRate{120000, 1001}};
 
-/// NTSC rates as people write them.
+/// NTSC rates as users write them.
 constexpr std::array kDecimalRates = {FrameRate{2997, 125}, FrameRate{2997, 100}, FrameRate{2997, 50}};
 
-/// The rate whose frame time is nearest to `seconds`, none where all are farther off than `most`.
+/// The rate whose frame time is nearest to `seconds`; empty if all differ by more than `most`.
 std::optional<FrameRate> nearest(std::span<const FrameRate> rates, double seconds, double most) {
   std::optional<FrameRate> result;
   for (const FrameRate& rate : rates) {
@@ -97,18 +98,18 @@ std::optional<SnappedRate> snap_frame_time(std::string_view text) {
   if (!std::isfinite(seconds) || seconds < 1e-6 || seconds > 1e4) return std::nullopt;
 
   const std::optional<Decimal> decimal = parse_decimal(text);
-  // Without the exact decimals the last printed place is unknown: take a double's own precision for it.
+  // Without exact decimals the last printed digit is unknown: use a double's own precision instead.
   const double half_place =
       decimal ? 0.5 * std::pow(10.0, -decimal->decimals) : seconds * std::numeric_limits<double>::epsilon();
-  // A rounded frame time covers an interval of rates. Several standard rates may lie in it: "0.02" is 48 as well as 50,
-  // so the nearest one is taken; "0.0167" is 60 as well as 59.94, so whole rates come first. And only where the
-  // interval is narrow enough to mean anything: "0.03" is no rate.
+  // A rounded frame time covers an interval of rates, which may contain several standard rates: "0.02" may be 48 or 50,
+  // so the nearest one is taken; "0.0167" may be 60 or 59.94, so whole rates come first. The interval must also be
+  // narrow enough to be meaningful: "0.03" identifies no rate.
   const double last_place = half_place * 1.02 + 1e-15;
   const double wide = std::min(last_place, 0.025 * seconds);
   const double narrow = std::min(last_place, 0.005 * seconds);
   std::optional<FrameRate> rate = nearest(kWholeRates, seconds, wide);
   if (!rate) rate = nearest(kNtscRates, seconds, wide);
-  // Some programs cut digits off instead of rounding ("0.0166"), and some take "23.976" by its word.
+  // Some programs truncate instead of rounding ("0.0166"), and some use "23.976" literally.
   if (!rate && decimal) rate = nearest(kWholeRates, seconds + half_place, narrow);
   if (!rate) rate = nearest(kDecimalRates, seconds, narrow);
   if (rate) return SnappedRate{*rate, rate->frame_time().count() != seconds};
@@ -118,7 +119,7 @@ std::optional<SnappedRate> snap_frame_time(std::string_view text) {
     for (int i = 0; i < decimal->decimals; ++i) numerator *= 10;
     return SnappedRate{reduced(numerator, decimal->digits), false};
   }
-  // Past what an exact fraction holds: the nearest fraction over 10^12.
+  // Too long for an exact fraction: use the nearest fraction over 10^12.
   const double scaled = std::round(seconds * 1e12);
   if (scaled < 1.0 || scaled > 9e18) return std::nullopt;
   return SnappedRate{reduced(1'000'000'000'000, static_cast<std::int64_t>(scaled)), false};

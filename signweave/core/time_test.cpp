@@ -24,7 +24,7 @@ struct Case {
   bool snapped;
 };
 
-TEST(SnapFrameTime, APrintedFrameTimeIsTheStandardRateThatPrintsSo) {
+TEST(SnapFrameTime, APrintedFrameTimeGivesTheStandardRateWithTheSameText) {
   const std::vector<Case> cases = {
       {"0.033333", {30, 1}, true},
       {"0.0333333", {30, 1}, true},
@@ -60,13 +60,13 @@ TEST(SnapFrameTime, APrintedFrameTimeIsTheStandardRateThatPrintsSo) {
   }
 }
 
-TEST(SnapFrameTime, DigitsMayBeCutOffInsteadOfRounded) {
+TEST(SnapFrameTime, DigitsMayBeTruncatedInsteadOfRounded) {
   EXPECT_EQ(snap_frame_time("0.0166")->rate, (FrameRate{60, 1}));
   EXPECT_EQ(snap_frame_time("0.01666")->rate, (FrameRate{60, 1}));
   EXPECT_EQ(snap_frame_time("0.0416")->rate, (FrameRate{24, 1}));
 }
 
-TEST(SnapFrameTime, TheDecimalNtscRatesAreTakenByTheirWord) {
+TEST(SnapFrameTime, DecimalNtscRatesAreTakenLiterally) {
   EXPECT_EQ(snap_frame_time("0.0417083750417")->rate, (FrameRate{2997, 125}));
   EXPECT_EQ(snap_frame_time("0.03336670003")->rate, (FrameRate{2997, 100}));
 }
@@ -78,13 +78,13 @@ TEST(SnapFrameTime, AnyOtherTextIsExactlyTheDecimalPrinted) {
   EXPECT_FALSE(snap_frame_time("0.0123")->snapped);
 }
 
-TEST(SnapFrameTime, WhatIsNoFrameTimeHasNoRate) {
+TEST(SnapFrameTime, OtherTextThanAFrameTimeHasNoRate) {
   for (const char* text : {"", "0", "-0.01", "nan", "inf", "abc", "0.01s", "0,01", "1e-7", "1e5", "0.01 0.02"}) {
     EXPECT_FALSE(snap_frame_time(text)) << text;
   }
 }
 
-RC_GTEST_PROP(SnapFrameTime, AnyTextGivesARateNearItOrNone, ()) {
+RC_GTEST_PROP(SnapFrameTime, AnyNumberGivesANearbyRateOrNone, ()) {
   const double seconds =
       *rc::gen::map(rc::gen::inRange(-6'000'000, 4'000'000), [](int power) { return std::pow(10.0, power * 1e-6); });
   const int digits = *rc::gen::inRange(1, 18);
@@ -101,7 +101,7 @@ RC_GTEST_PROP(SnapFrameTime, AnyTextGivesARateNearItOrNone, ()) {
   }
 }
 
-TEST(ParseFrameRate, AUserMayWriteAWholeADecimalOrAFraction) {
+TEST(ParseFrameRate, AcceptsWholeNumbersDecimalsAndFractions) {
   EXPECT_EQ(parse_frame_rate("100"), (FrameRate{100, 1}));
   EXPECT_EQ(parse_frame_rate("29.97"), (FrameRate{30000, 1001}));
   EXPECT_EQ(parse_frame_rate("23.976"), (FrameRate{24000, 1001}));
@@ -110,17 +110,17 @@ TEST(ParseFrameRate, AUserMayWriteAWholeADecimalOrAFraction) {
   EXPECT_EQ(parse_frame_rate("60/2"), (FrameRate{30, 1}));
 }
 
-TEST(ParseFrameRate, WhatIsNoRateIsNone) {
+TEST(ParseFrameRate, OtherTextIsRefused) {
   for (const char* text : {"", "0", "-30", "30/0", "30/", "/1", "1e99", "abc", "30fps", "1.5/2", "nan", "99999999"}) {
     EXPECT_FALSE(parse_frame_rate(text)) << text;
   }
 }
 
-TEST(ToString, NamesARateSoThatItParsesBack) {
+TEST(ToString, GivesTextThatParsesBack) {
   for (const char* text : {"120", "30000/1001", "12.5", "23.5"}) EXPECT_EQ(to_string(*parse_frame_rate(text)), text);
 }
 
-TEST(FramesOf, PhasesThatTouchShareNoFrame) {
+TEST(FramesOf, AdjacentPhasesShareNoFrame) {
   const FrameClock clock{.frame_time = Seconds(1.0 / 30.0), .origin = 120ms};
   const FrameRange preparation = frames_of({1'000ms, 1'217ms}, clock);
   const FrameRange stroke = frames_of({1'217ms, 1'583ms}, clock);
@@ -128,13 +128,13 @@ TEST(FramesOf, PhasesThatTouchShareNoFrame) {
   EXPECT_EQ(stroke.begin, preparation.end);
 }
 
-RC_GTEST_PROP(FramesOf, ASpanOfWholeFramesComesBack, ()) {
+RC_GTEST_PROP(FramesOf, ASpanOfWholeFramesRoundTrips, ()) {
   const FrameClock clock{.frame_time = Seconds(1.0 / *rc::gen::inRange(1, 400)),
                          .origin = Milliseconds(*rc::gen::inRange(-100'000, 100'000))};
   const std::int64_t begin = *rc::gen::inRange(0, 1'000'000);
   const FrameRange range{begin, begin + *rc::gen::inRange(0, 10'000)};
   const TimeSpan span = span_of(range, clock);
-  // A frame is longer than the millisecond that a span is rounded to.
+  // A frame is longer than the millisecond to which a span is rounded.
   RC_ASSERT(frames_of(span, clock) == range);
 }
 
@@ -145,14 +145,14 @@ TEST(FramesOf, ATimeFarOutsideDoesNotOverflow) {
   EXPECT_GT(range.end, 0);
 }
 
-TEST(Clamp, KeepsTheFramesThatExist) {
+TEST(Clamp, LimitsARangeToExistingFrames) {
   EXPECT_EQ(clamp({-5, 3}, 10), (FrameRange{0, 3}));
   EXPECT_EQ(clamp({8, 30}, 10), (FrameRange{8, 10}));
   EXPECT_TRUE(clamp({20, 30}, 10).empty());
   EXPECT_TRUE(clamp({7, 3}, 10).empty());
 }
 
-TEST(TimeSpan, SpansThatTouchDoNotOverlap) {
+TEST(TimeSpan, AdjacentSpansDoNotOverlap) {
   EXPECT_FALSE((TimeSpan{0ms, 10ms}.overlaps({10ms, 20ms})));
   EXPECT_TRUE((TimeSpan{0ms, 11ms}.overlaps({10ms, 20ms})));
   EXPECT_TRUE((TimeSpan{0ms, 20ms}.contains({10ms, 20ms})));

@@ -3,8 +3,8 @@
 
 namespace signweave {
 
-/// The version of this library and its programs, MAJOR.MINOR.PATCH by Semantic Versioning. It is stated once, in the
-/// project() of CMakeLists.txt; the build generates this function from there.
+/// The version of this library and its programs, MAJOR.MINOR.PATCH by Semantic Versioning. It is defined once, in
+/// project() of CMakeLists.txt, from which the build generates this function.
 std::string_view version() noexcept;
 
 }  // namespace signweave

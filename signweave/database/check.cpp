@@ -76,7 +76,7 @@ void check_tables(const std::shared_ptr<const kv::ReadTransaction>& snapshot, Ch
     const Segments made(tables::table_of_all(*snapshot, faults));
     if (!stored || !faults.empty()) return;  // none yet; or what is damaged is told of already
     const auto whole = [](const Segments& segments) {
-      std::vector<SegmentTable::Part> parts;
+      std::vector<SegmentTable::RecordingRef> parts;
       for (std::uint32_t i = 0; i < segments.recording_count(); ++i) parts.push_back(segments.part(i));
       return SegmentTable::merged(parts);
     };

@@ -52,7 +52,7 @@ bool is_at_rest(const RecordingInfo& info, std::string_view name) {
 }
 
 /// The rows of a recording as its table has them.
-std::vector<MovementRow> rows_of(const SegmentTable::Part& part) {
+std::vector<MovementRow> rows_of(const SegmentTable::RecordingRef& part) {
   const SegmentTable& table = *part.table;
   const SegmentTable::RowRange range = table.recording_rows(part.recording);
   std::vector<MovementRow> rows;

@@ -105,7 +105,7 @@ TEST_F(SmileTest, ATrackThatNoRecordingHasIsAFault) {
     Database database(folder_ / "db", kv::Access::read_write);
     database.remove("smile");
   }
-  EXPECT_THAT(fault("track(jawOpen) > 0"), HasSubstr("import a face capture, NAME.face.csv, beside its motion"));
+  EXPECT_THAT(fault("track(jawOpen) > 0"), HasSubstr("import a face capture, NAME.face.csv, with its motion"));
 }
 
 TEST_F(SmileTest, WithoutEyesThereIsNoGaze) {

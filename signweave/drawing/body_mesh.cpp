@@ -15,7 +15,7 @@ using Eigen::Vector3f;
 
 constexpr float kPi = std::numbers::pi_v<float>;
 
-/// One ring of a turned solid: how far along the axis, and its two half widths.
+/// One ring of a solid of revolution: its position along the axis, and its two half widths.
 struct Ring {
   float along = 0;
   float wide = 0;
@@ -27,8 +27,8 @@ class Builder {
   explicit Builder(JointIndex joint, BodyMesh& mesh)
       : mesh_(mesh), joint_(joint), first_(mesh.positions.size()), first_index_(mesh.indices.size()) {}
 
-  /// A solid turned about the unit `axis` from `base`: rings in order, the first and last of width 0. `side` is the
-  /// unit direction of the first half width, square to the axis.
+  /// Adds a solid of revolution about the unit `axis` from `base`: rings in order, the first and last of width 0.
+  /// `side` is the unit direction of the first half width, perpendicular to the axis.
   void turned(const Vector3f& base, const Vector3f& axis, const Vector3f& side, const std::vector<Ring>& rings,
               std::uint32_t corners) {
     const Vector3f other = axis.cross(side);
@@ -61,7 +61,7 @@ class Builder {
     mesh_.indices.insert(mesh_.indices.end(), {a, b, c});
   }
 
-  /// Gives the vertices added since the beginning the mean of their triangles' normals.
+  /// Sets the normal of each vertex added since construction to the mean of its triangles' normals.
   void finish() {
     mesh_.normals.resize(mesh_.positions.size(), Vector3f::Zero());
     for (std::size_t i = first_index_; i < mesh_.indices.size(); i += 3) {
@@ -71,7 +71,7 @@ class Builder {
       for (int k = 0; k < 3; ++k) mesh_.normals[corner[k]] += normal;
     }
     for (std::size_t i = first_; i < mesh_.normals.size(); ++i) {
-      // Float noise must not decide: a triangle too small for a direction gets one that is as good as any.
+      // Rounding noise must not decide: a triangle too small to have a direction gets an arbitrary one.
       const double length = mesh_.normals[i].cast<double>().norm();
       mesh_.normals[i] =
           length > 0 ? Vector3f((mesh_.normals[i].cast<double>() / length).cast<float>()) : Vector3f(Vector3f::UnitY());
@@ -97,11 +97,11 @@ std::vector<Ring> rounded(float length, float w0, float d0, float w1, float d1) 
           {length, w1, d1}, {length + kOut * high, kIn * w1, kIn * d1}, {length + high, 0, 0}};
 }
 
-/// A limb from `from` to `to`, thick at its beginning.
+/// Adds a limb from `from` to `to`, with its thickness at the beginning.
 void add_limb(BodyMesh& mesh, JointIndex joint, const Vector3f& from, const Vector3f& to, float thick, float thin) {
-  const Vector3f way = to - from;
-  const float length = way.norm();
-  const Vector3f axis = way / length;
+  const Vector3f direction = to - from;
+  const float length = direction.norm();
+  const Vector3f axis = direction / length;
   Builder builder(joint, mesh);
   builder.turned(from, axis, axis.unitOrthogonal(), rounded(length, thick, thick, thin, thin), 10);
   builder.finish();
@@ -124,7 +124,7 @@ void add_ellipsoid(BodyMesh& mesh, const HeadShape& head) {
   skull.finish();
 }
 
-/// Corners of the convex hull of some points, counter-clockwise (monotone chain).
+/// Corners of the convex hull of the points, counter-clockwise (monotone chain).
 std::vector<Vector2f> hull_of(std::vector<Vector2f> points) {
   std::sort(points.begin(), points.end(),
             [](const Vector2f& a, const Vector2f& b) { return a.x() != b.x() ? a.x() < b.x() : a.y() < b.y(); });
@@ -146,7 +146,7 @@ std::vector<Vector2f> hull_of(std::vector<Vector2f> points) {
   return hull;
 }
 
-/// A flat box around wrist and knuckles, so that the hand has a palm and a back.
+/// Adds a flat box around wrist and knuckles, so that the hand has a palm and a back.
 void add_palm(BodyMesh& mesh, const BodyPlan& plan, const HandShape& hand) {
   const Vector3f wrist = plan.place(hand.joint);
   std::vector<Vector3f> points = {wrist};
@@ -177,7 +177,7 @@ void add_palm(BodyMesh& mesh, const BodyPlan& plan, const HandShape& hand) {
     const Vector2f spot = hull[corner % corners] * inset;
     return Vector3f(middle + spot.x() * along + spot.y() * across + height * normal);
   };
-  // Back, palm and rim are solids of their own, so that their edges stay edges.
+  // Back, palm and rim are separate solids, so that their edges stay sharp.
   for (const float face : {half, -half}) {
     Builder builder(hand.joint, mesh);
     std::vector<std::uint32_t> rim;
@@ -205,7 +205,7 @@ void add_palm(BodyMesh& mesh, const BodyPlan& plan, const HandShape& hand) {
   builder.finish();
 }
 
-/// Spine by spine, from the width of the hips to that of the ribs, and on to the neck.
+/// Adds the trunk spine joint by spine joint, from the width of the hips to that of the ribs, up to the neck.
 void add_trunk(BodyMesh& mesh, const BodyPlan& plan) {
   const float hips = plan.hip_width + 0.035f * plan.size;
   const float ribs = 0.88f * plan.shoulder_width;
@@ -216,20 +216,20 @@ void add_trunk(BodyMesh& mesh, const BodyPlan& plan) {
   const auto width_at = [&](std::size_t i) {
     if (i + 1 == joints.size()) return 0.5f * ribs;
     const float part = (plan.place(joints[i]) - plan.place(plan.trunk.front())).norm() / std::max(whole, 1e-6f);
-    return hips + (ribs - hips) * part - 0.3f * std::min(hips, ribs) * part * (1 - part);  // a waist
+    return hips + (ribs - hips) * part - 0.3f * std::min(hips, ribs) * part * (1 - part);  // the waist
   };
   for (std::size_t i = 0; i + 1 < joints.size(); ++i) {
     const Vector3f from = plan.place(joints[i]);
-    const Vector3f way = plan.place(joints[i + 1]) - from;
-    const float length = way.norm();
+    const Vector3f direction = plan.place(joints[i + 1]) - from;
+    const float length = direction.norm();
     if (length < 1e-4f * plan.size) continue;
-    const Vector3f axis = way / length;
+    const Vector3f axis = direction / length;
     const Vector3f flat = plan.left - plan.left.dot(axis) * axis;
     const Vector3f side = flat.norm() > 0.1f ? Vector3f(flat.normalized()) : Vector3f(axis.unitOrthogonal());
     const float w0 = width_at(i);
     const float w1 = width_at(i + 1);
     std::vector<Ring> rings = rounded(length, w0, deep * w0, w1, deep * w1);
-    for (Ring& ring : rings) {  // flatter ends: a trunk is no ball
+    for (Ring& ring : rings) {  // flatter ends: a trunk is not a ball
       if (ring.along < 0) ring.along *= 0.4f;
       if (ring.along > length) ring.along = length + 0.4f * (ring.along - length);
     }
@@ -241,7 +241,7 @@ void add_trunk(BodyMesh& mesh, const BodyPlan& plan) {
 
 void add_nose(BodyMesh& mesh, const HeadShape& head) {
   const float scale = head.half.y();
-  // On the skull's surface, so that no gap is seen from the side.
+  // On the skull's surface, so that no gap is visible from the side.
   const auto before_skull = [&](float height, float distance) {
     const float surface = head.half.z() * std::sqrt(1 - height * height) * (0.88f + 0.12f * height);
     return Vector3f(head.centre + height * scale * head.up + (surface + distance * scale) * head.forward);
@@ -252,9 +252,9 @@ void add_nose(BodyMesh& mesh, const HeadShape& head) {
 }  // namespace
 
 BodyMesh body_mesh(const Skeleton& skeleton, const BodyPlan& plan) {
-  // Bones that a larger solid stands for.
+  // Bones that are covered by a larger solid.
   std::vector<bool> covered(skeleton.joint_count());
-  if (!plan.trunk.empty()) {  // up to the root: what is above the hips is no part of the body
+  if (!plan.trunk.empty()) {  // up to the root: joints above the hips are not part of the body
     for (JointIndex joint = plan.neck; joint != kNoJoint; joint = skeleton.joint(joint).parent)
       covered[at(joint)] = true;
   }
@@ -290,7 +290,7 @@ BodyMesh body_mesh(const Skeleton& skeleton, const BodyPlan& plan) {
   };
   for (JointIndex joint = 1; at(joint) < skeleton.joint_count(); ++joint) {
     if (covered[at(joint)] || in_head[at(joint)]) continue;
-    // A limb ends as thick as the next begins.
+    // A limb is as thick at its end as the next one is at its beginning.
     const auto& children = plan.children[at(joint)];
     const float next = children.size() == 1 ? thickness(joint, plan.bones[at(children[0])].norm()) : 0;
     add_bone(skeleton.joint(joint).parent, plan.place(joint), next);

@@ -12,7 +12,7 @@ namespace {
 
 using Eigen::Vector3f;
 
-/// `of` without its part along `axis`, at unit length; `otherwise` where nothing is left.
+/// `of` without its component along `axis`, at unit length; `otherwise` if the remainder is zero.
 Vector3f across(const Vector3f& of, const Vector3f& axis, const Vector3f& otherwise) {
   const Vector3f rest = of - of.dot(axis) * axis;
   if (rest.norm() > 1e-6f) return rest.normalized();
@@ -22,7 +22,7 @@ Vector3f across(const Vector3f& of, const Vector3f& axis, const Vector3f& otherw
 
 HeadShape head_shape(const Skeleton& skeleton, const BodyPlan& plan, const BodyShape& shape, JointIndex joint) {
   HeadShape head{.joint = joint};
-  // Its top is the end that is highest above the trunk: a tip, or a joint from which nothing grows.
+  // Its top is the end that is highest above the trunk: a tip, or a joint without children.
   Vector3f top = Vector3f::Zero();
   const auto consider = [&](const Vector3f& end) {
     if (end.dot(plan.up) > top.dot(plan.up)) top = end;
@@ -35,7 +35,7 @@ HeadShape head_shape(const Skeleton& skeleton, const BodyPlan& plan, const BodyS
   }
   const float length = std::clamp(top.norm(), 0.08f * plan.size, 0.15f * plan.size);
   head.up = top.norm() > 0.04f * plan.size ? Vector3f(top.normalized()) : plan.up;
-  // Nobody lays the head on the shoulder: some rigs' skull ends point aside, whatever the head does.
+  // A head is never tilted as far as the shoulder: the skull ends of some rigs point sideways, whatever the head does.
   if (head.up.dot(plan.up) < 0.5f) head.up = plan.up;
   Vector3f front = Vector3f::Zero();  // eyes and jaw are in front
   for (const JointIndex child : plan.children[at(joint)]) {
@@ -60,20 +60,20 @@ std::vector<HandShape> hands_of(const Skeleton& skeleton, const BodyShape& shape
       if (!knuckle.known() || knuckle.joint == hand.joint) continue;
       if (grows_from(skeleton, knuckle.joint, hand.joint)) hand.knuckles.push_back(knuckle.joint);
     }
-    // Fingers whose order nothing tells make a palm all the same.
+    // Fingers in an unknown order are still enough for a palm.
     if (hand.knuckles.size() < 4) hand.knuckles = knuckles_of(skeleton, shape, hand.joint);
     if (hand.knuckles.size() >= 4) hands.push_back(std::move(hand));
   }
   return hands;
 }
 
-/// The child of `from` that leads to `joint`, which grows from it.
+/// The child of `from` that is `joint` or an ancestor of it.
 JointIndex child_towards(const Skeleton& skeleton, JointIndex from, JointIndex joint) {
   while (skeleton.joint(joint).parent != from) joint = skeleton.joint(joint).parent;
   return joint;
 }
 
-/// Trunk, neck, widths and directions, where the map knows the whole of it.
+/// Finds trunk, neck, widths and directions, if the map has all of the trunk's joints.
 void find_trunk(const Skeleton& skeleton, const RigMap& rig, BodyPlan& plan) {
   const auto joint_of = [&](Part part) { return rig[part].joint; };
   const JointIndex chest = joint_of(Part::chest);

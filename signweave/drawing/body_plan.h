@@ -8,7 +8,7 @@
 #include "signweave/motion/motion.h"
 #include "signweave/rig/rig_map.h"
 
-/// What is drawn of a skeleton: its rig map as places, widths and directions.
+/// What is drawn of a skeleton: its rig map as positions, widths and directions.
 namespace signweave {
 
 /// The head as an ellipsoid, in the plan's pose.
@@ -27,20 +27,20 @@ struct HandShape {
   std::vector<JointIndex> knuckles;  ///< where fingers leave the palm, below the joint; at least four
 };
 
-/// Everything is in the model space of one captured pose, metres: in a rest pose the limbs of one body may point
+/// All values are in the model space of one captured pose, in metres, because the limbs of a rest pose may point
 /// anywhere.
 struct BodyPlan {
   ModelPose pose;
   std::vector<Eigen::Vector3f> bones;      ///< [joint] from its parent to it; zero for the root
   std::vector<Eigen::Vector3f> tip_bones;  ///< [tip] from its joint to it
   std::vector<std::vector<JointIndex>> children;
-  float size = 1;                                   ///< about the stature, told from the bones' lengths; above 0
+  float size = 1;                                   ///< approximately the stature, from the bone lengths; above 0
   Eigen::Vector3f left = Eigen::Vector3f::UnitX();  ///< unit, of the trunk
   Eigen::Vector3f up = Eigen::Vector3f::UnitY();
   Eigen::Vector3f forward = Eigen::Vector3f::UnitZ();
-  std::vector<JointIndex> trunk;      ///< from the pelvis to the chest; empty where the map lacks trunk, arm or head
+  std::vector<JointIndex> trunk;      ///< from the pelvis to the chest; empty if the map lacks trunk, arm or head
   JointIndex neck = kNoJoint;         ///< child of the chest that leads to the head
-  std::vector<JointIndex> shoulders;  ///< where the two arms begin, the left first
+  std::vector<JointIndex> shoulders;  ///< where the two arms begin, left first
   std::vector<JointIndex> collars;    ///< between the chest and the shoulders
   float hip_width = 0;                ///< half the distance between the legs
   float shoulder_width = 0;           ///< half the distance between the arms
@@ -50,9 +50,9 @@ struct BodyPlan {
   const Eigen::Vector3f& place(JointIndex joint) const { return pose.positions[static_cast<std::size_t>(joint)]; }
 };
 
-/// The plan of a motion of at least one frame, from its middle one. `rig` must be a map of its skeleton.
+/// The plan of a motion of at least one frame, taken from its middle frame. `rig` must be a map of its skeleton.
 BodyPlan plan_of(const Motion& motion, const RigMap& rig);
-/// With the map that names and shape give.
+/// The same with the map that joint names and body shape give.
 inline BodyPlan plan_of(const Motion& motion) {
   return plan_of(motion, map_rig(motion));
 }

@@ -23,7 +23,7 @@ JointIndex named(const Skeleton& skeleton, std::string_view name) {
   return *skeleton.find(name);
 }
 
-/// The skeleton with other names, so that nothing can be told from them.
+/// The skeleton with other names that give no information.
 std::shared_ptr<const Skeleton> nameless(const Skeleton& skeleton) {
   std::vector<Joint> joints(skeleton.joints().begin(), skeleton.joints().end());
   for (Joint& joint : joints) joint.name = "j";
@@ -48,7 +48,7 @@ TEST(BodyPlan, FindsTrunkHeadAndHandsWithoutNames) {
   EXPECT_NEAR(plan.size, 1.7f, 0.2f);
 }
 
-TEST(BodyPlan, TellsTheLeftSideByTheToesWhereverTheBodyStands) {
+TEST(BodyPlan, FindsTheLeftSideByTheToesWhereverTheBodyIs) {
   Motion motion(person(), {100, 1}, 1);
   for (const float degrees : {0.0f, 90.0f, 200.0f}) {
     const Eigen::Quaternionf turn(AngleAxisf(degrees * std::numbers::pi_v<float> / 180, Vector3f::UnitY()));
@@ -60,7 +60,7 @@ TEST(BodyPlan, TellsTheLeftSideByTheToesWhereverTheBodyStands) {
   }
 }
 
-TEST(BodyPlan, IsThatOfAPoseSinceARestPoseMayBeNoBody) {
+TEST(BodyPlan, IsThatOfAPoseBecauseARestPoseMayBeUnnatural) {
   // Both arms point forward at rest; only the turned collar bones spread them.
   const auto straight = person();
   std::vector<Joint> joints(straight->joints().begin(), straight->joints().end());
@@ -81,7 +81,7 @@ TEST(BodyPlan, IsThatOfAPoseSinceARestPoseMayBeNoBody) {
   EXPECT_NEAR(plan_of(motion).shoulder_width, 0.18f, 1e-3f);
 }
 
-TEST(BodyPlan, WhatIsAboveTheHipsInTheTreeIsNoBody) {
+TEST(BodyPlan, JointsAboveTheHipsInTheTreeAreNotPartOfTheBody) {
   const auto skeleton = person();
   std::vector<Joint> joints = {{"Scene", kNoJoint, {0, 0, 0}, true}};
   for (Joint joint : skeleton->joints()) {
@@ -94,7 +94,7 @@ TEST(BodyPlan, WhatIsAboveTheHipsInTheTreeIsNoBody) {
   for (const JointIndex joint : body_mesh(motion.skeleton(), plan).joints) EXPECT_NE(joint, 0);
 }
 
-TEST(BodyPlan, ASnakeIsNoBody) {
+TEST(BodyPlan, ASnakeIsNotABody) {
   std::vector<Joint> joints = {{"Tail", kNoJoint, {0, 0, 0}, true}};
   for (int i = 0; i < 6; ++i) joints.push_back({"Bone", i, {0.2f, 0, 0}, false});
   const Motion motion(std::make_shared<const Skeleton>(joints, std::vector<Tip>()), {100, 1}, 1);
@@ -122,11 +122,11 @@ std::vector<std::size_t> solids_of(const BodyMesh& mesh) {
   return solid;
 }
 
-TEST(BodyMesh, TrianglesLookOutwards) {
+TEST(BodyMesh, TrianglesFaceOutwards) {
   const Motion motion = moving_person(3);
   const BodyMesh mesh = body_mesh(motion.skeleton(), plan_of(motion));
   const std::vector<std::size_t> solid = solids_of(mesh);
-  std::map<std::size_t, double> volumes;  // of a solid whose triangles look outwards: positive; of a lid: 0
+  std::map<std::size_t, double> volumes;  // positive for a solid whose triangles face outwards; 0 for a lid
   double whole = 0;
   for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
     const std::size_t first = solid[mesh.indices[i]];
@@ -183,7 +183,7 @@ TEST(BodyMesh, TheSkullIsDeeperThanWideAndHigherThanDeep) {
   EXPECT_LT(extent.x(), extent.z());
 }
 
-TEST(BodyMesh, TheNoseGrowsFromTheHead) {
+TEST(BodyMesh, TheNoseIsAttachedToTheHead) {
   const Motion motion(person(), {100, 1}, 1);
   const BodyPlan plan = plan_of(motion);
   const HeadShape& head = *plan.head;
@@ -208,7 +208,7 @@ TEST(BodyMesh, TheNoseGrowsFromTheHead) {
   EXPECT_LT(tip, 1.35f);
 }
 
-TEST(BodyPlan, AHeadStandsUprightWhereItsEndPointsAside) {
+TEST(BodyPlan, AHeadIsUprightIfItsEndPointsSideways) {
   const auto straight = person();
   for (const Vector3f& aside : {Vector3f(0.2f, 0.03f, 0), Vector3f(0, 0.18f, 0.08f)}) {
     std::vector<Tip> tips(straight->tips().begin(), straight->tips().end());
@@ -216,12 +216,12 @@ TEST(BodyPlan, AHeadStandsUprightWhereItsEndPointsAside) {
     std::vector<Joint> joints(straight->joints().begin(), straight->joints().end());
     const Motion motion(std::make_shared<const Skeleton>(joints, tips), {100, 1}, 1);
     const Vector3f up = plan_of(motion).head->up;
-    // A head that nods keeps its way.
+    // A nodding head keeps its direction.
     EXPECT_LT((up - (aside.x() > 0 ? Vector3f(Vector3f::UnitY()) : Vector3f(aside.normalized()))).norm(), 0.1f);
   }
 }
 
-TEST(BodyPlan, ARootOnTheGroundIsNoTrunkEvenWithoutLegs) {
+TEST(BodyPlan, ARootOnTheGroundIsNotPartOfTheTrunkEvenWithoutLegs) {
   std::vector<Joint> joints = {{"Scene", kNoJoint, {0, 0, 0}, true}};
   std::vector<Tip> tips;
   const auto skeleton = person();
@@ -264,7 +264,7 @@ TEST(FaceMesh, EveryTargetMovesSomethingAndTheSidedOnesTheirSideOnly) {
       const bool is_left = (face.positions[i] - head.centre).dot(head.left) > 0;
       (is_left ? left : right) += target.deltas[i].norm();
     }
-    const bool jaw = target.name.starts_with("jaw");  // goes sideways as a whole
+    const bool jaw = target.name.starts_with("jaw");  // moves sideways as a whole
     EXPECT_EQ(left > 1e-4f, jaw || !target.name.ends_with("Right")) << target.name;
     EXPECT_EQ(right > 1e-4f, jaw || !target.name.ends_with("Left")) << target.name;
   }
@@ -273,12 +273,12 @@ TEST(FaceMesh, EveryTargetMovesSomethingAndTheSidedOnesTheirSideOnly) {
 TEST(FaceMesh, ABlinkClosesTheEyeAndAnOpenJawLowersTheLip) {
   const HeadShape head = *plan_of(Motion(person(), {100, 1}, 1)).head;
   const FaceMesh face = face_mesh(head, {"eyeBlinkLeft", "jawOpen", "mouthPucker", "browInnerUp"});
-  const auto extent = [&](const FaceTarget& target, const Vector3f& way, float weight) {
+  const auto extent = [&](const FaceTarget& target, const Vector3f& direction, float weight) {
     float low = 1e9f;
     float high = -1e9f;
     for (std::size_t i = 0; i < face.positions.size(); ++i) {
       if (target.deltas[i].norm() < 1e-5f) continue;  // the part that the target moves
-      const float at = (face.positions[i] + weight * target.deltas[i]).dot(way);
+      const float at = (face.positions[i] + weight * target.deltas[i]).dot(direction);
       low = std::min(low, at);
       high = std::max(high, at);
     }

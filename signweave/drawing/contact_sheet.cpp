@@ -26,8 +26,8 @@ namespace {
 
 using Eigen::Vector3f;
 
-constexpr double kCellWidth = 190;   // pixels, with the margins
-constexpr double kCellHeight = 214;  // with the caption
+constexpr double kCellWidth = 190;   // pixels, including the margins
+constexpr double kCellHeight = 214;  // including the caption
 constexpr double kCaption = 26;
 constexpr double kMargin = 8;
 constexpr double kCaptionSize = 11;  // pixels, as are the next two
@@ -36,14 +36,14 @@ constexpr double kNoteSize = 12;
 constexpr float kBeyond = 0.2f;  // shoulder widths: above the head and below the waist
 constexpr std::string_view kArrow = " → ";
 
-/// One line of text, no wider than `room` pixels: as large as `size`, smaller where that is too wide.
+/// One line of text, no wider than `room` pixels: of size `size`, or smaller if that is too wide.
 struct Line {
   double x = 0, y = 0, size = 0, room = 0;
   std::string_view anchor;
 };
 
 void put_text(const Line& line, std::string_view what, std::string& out) {
-  constexpr double kLeast = 5;  // pixels; what is smaller is no text
+  constexpr double kLeast = 5;  // pixels; smaller text is illegible
   const double wide = svg_ems(what);
   const double fits = wide > 0 ? std::floor(10 * line.room / wide) / 10 : line.size;
   const double size = std::clamp(fits, kLeast, line.size);
@@ -71,7 +71,7 @@ void put_caption(std::string_view caption, std::string& out) {
   put_text(line, caption.substr(arrow + kArrow.size()), out);
 }
 
-/// How far one figure goes, metres.
+/// The extent of one figure, in metres.
 struct Extent {
   double half_width = 0.1;
   double low = 0, top = 0;
@@ -102,8 +102,8 @@ FigureView view_of(const Extent& extent) {
   return view;
 }
 
-/// One extent for all cells. A twentieth at each end, of five figures at least one, does not count where it goes much
-/// farther than the rest: a rest pose among them must not make the others small.
+/// One extent for all cells. At each end a twentieth of the figures, at least one if there are five or more, is ignored
+/// if it reaches much farther than the rest: a rest pose among them must not make the others small.
 Extent common_extent(const std::vector<Extent>& figures) {
   constexpr double kMuch = 1.25;
   const std::size_t left_out = std::max<std::size_t>((figures.size() + 10) / 20, figures.size() < 5 ? 0 : 1);
@@ -130,7 +130,7 @@ Extent common_extent(const std::vector<Extent>& figures) {
   return common;
 }
 
-/// The common view, or a smaller one of its own for a figure that would leave its cell.
+/// The common view, or a smaller one for a figure that would leave its cell.
 FigureView view_of(const Extent& figure, const Extent& common) {
   Extent both = common;
   both.half_width = std::max(both.half_width, figure.half_width);
@@ -169,10 +169,10 @@ std::vector<std::int64_t> frames_to_show(const Motion& motion, const ContactShee
 
 struct Cell {
   std::int64_t frame = 0;
-  std::size_t given = 0;  ///< which of the frames asked for
+  std::size_t given = 0;  ///< index into the requested frames
 };
 
-/// Of `all`, `most` at the largest: the most important, evenly where not all of one importance have room.
+/// At most `most` of `all`: the most important ones, spread evenly if not all of equal importance fit.
 std::vector<Cell> thinned(const std::vector<Cell>& all, std::size_t most, const std::vector<int>& importance) {
   if (most == 0 || all.size() <= most) return all;
   const auto importance_of = [&](const Cell& cell) {
@@ -191,7 +191,7 @@ std::vector<Cell> thinned(const std::vector<Cell>& all, std::size_t most, const 
   return kept;
 }
 
-/// Who signs, where heights and zones are to be drawn.
+/// The signer whose heights and zones are to be drawn.
 struct Signer {
   RigMap rig;
   SignerBody body;
@@ -224,13 +224,13 @@ std::string contact_sheet(const Motion& motion, const ContactSheetOptions& optio
   std::vector<Extent> figures;
   const FigurePlan plan = figure_plan(motion, rig);
   for (const auto& [frame, given] : shown) {
-    // Seen from where the signer faces, wherever that is on the floor.
+    // Seen from the direction that the signer faces, wherever the signer is on the floor.
     Pose pose(motion.pose(frame));
     apply(align(standing_over(motion, {frame, frame + 1}), Standing{}), motion.skeleton(), pose.view());
     poses.push_back(to_model_space(skeleton, pose.view()));
     if (options.turn != 0) turn_about_vertical(options.turn, poses.back());
     figures.push_back(extent_of(figure_points(skeleton, plan, poses.back())));
-    if (signer) {  // room for the names of the highest and the lowest
+    if (signer) {  // room for the names of the highest and the lowest zone
       const SignerSpace space = signer_space(signer->body, signer->rig, poses.back());
       const auto height = [&](float y) { return static_cast<double>(space.to_model({0, y, 0}).y()); };
       Extent& figure = figures.back();

@@ -20,7 +20,7 @@ using Eigen::Vector3f;
 using testing::HasSubstr;
 using testing::Not;
 
-/// A body of few bones: a trunk, a head with eyes, two arms with one finger each, one leg a side.
+/// A body of few bones: a trunk, a head with eyes, two arms with one finger each, one leg per side.
 std::shared_ptr<const Skeleton> body() {
   std::vector<Joint> joints = {{"Hips", kNoJoint, {0, 1, 0}, true},
                                {"Spine", 0, {0, 0.4f, 0}, false},
@@ -64,7 +64,7 @@ std::vector<pugi::xml_node> cells(const pugi::xml_document& document) {
   return found;
 }
 
-TEST(ContactSheet, HasACellForEveryFrameAskedForWithItsCaption) {
+TEST(ContactSheet, HasACellForEveryRequestedFrameWithItsCaption) {
   ContactSheetOptions options;
   options.frames = {3, 1, 1};
   options.captions = {"PLUIE", "MATIN"};
@@ -89,7 +89,7 @@ TEST(ContactSheet, SpreadsItsCellsFromTheFirstFrameToTheLast) {
   for (const pugi::xml_node& cell : cells(document)) captions.emplace_back(cell.child_value("text"));
   EXPECT_THAT(captions, testing::ElementsAre("0.00 s", "0.50 s", "1.00 s", "1.50 s", "2.00 s"));
   EXPECT_EQ(cells(parsed(contact_sheet(standing(1000)))).size(), 24U);
-  EXPECT_EQ(cells(parsed(contact_sheet(standing(3)))).size(), 3U);  // not more cells than frames
+  EXPECT_EQ(cells(parsed(contact_sheet(standing(3)))).size(), 3U);  // no more cells than frames
 }
 
 TEST(ContactSheet, KeepsTheMostImportantOfTooManyAndSaysSo) {
@@ -133,7 +133,7 @@ TEST(ContactSheet, MakesItsTextsFit) {
   options.columns = 3;
   const pugi::xml_document document = parsed(contact_sheet(standing(3), options));
   const auto size = [](const pugi::xml_node& text) { return text.attribute("font-size").as_double(); };
-  const auto width = [&](const pugi::xml_node& text) {  // of ASCII, where capitals are wide
+  const auto width = [&](const pugi::xml_node& text) {  // for ASCII, with wide capitals
     return 0.6 * size(text) * static_cast<double>(std::string(text.child_value()).size());
   };
   EXPECT_LT(width(document.child("svg").child("text")), 3 * 190);
@@ -151,7 +151,7 @@ TEST(ContactSheet, MakesItsTextsFit) {
   EXPECT_THAT(contact_sheet(standing(3), options), HasSubstr("textLength=\"174.0\""));
 }
 
-TEST(ContactSheet, DrawsTheUpperBodyAndTellsRightFromLeft) {
+TEST(ContactSheet, DrawsTheUpperBodyAndDistinguishesRightFromLeft) {
   const pugi::xml_document document = parsed(contact_sheet(standing(1)));
   int lines = 0;
   std::set<std::string> left, right;
@@ -160,11 +160,11 @@ TEST(ContactSheet, DrawsTheUpperBodyAndTellsRightFromLeft) {
     ++lines;
     const double x = line.attribute("x2").as_double();
     lowest = std::max(lowest, line.attribute("y2").as_double());
-    // The viewer faces the signer, whose left is then on the right of the picture.
+    // The viewer faces the signer, whose left is therefore on the right of the picture.
     if (x > 96) left.insert(line.attribute("stroke").value());
     if (x < 94) right.insert(line.attribute("stroke").value());
   }
-  EXPECT_EQ(lines, 12);        // trunk, neck, and a side's upper arm, forearm, hand, finger, tip; no legs
+  EXPECT_EQ(lines, 12);        // trunk, neck, and per side upper arm, forearm, hand, finger, tip; no legs
   ASSERT_EQ(left.size(), 2U);  // arm and hand
   ASSERT_EQ(right.size(), 2U);
   const auto red = [](const std::string& colour) { return std::stoi(colour.substr(1, 2), nullptr, 16); };
@@ -200,7 +200,7 @@ TEST(ContactSheet, KeepsEveryHandInsideItsCell) {
   }
 }
 
-TEST(ContactSheet, LooksTheSameWhereverTheSignerStandsAndFaces) {
+TEST(ContactSheet, IsIndependentOfTheSignersPositionAndDirection) {
   const Motion motion = standing(1);
   Motion turned = standing(1);
   turned.pose(0).translations[0] = {4, 1, -3};
@@ -208,7 +208,7 @@ TEST(ContactSheet, LooksTheSameWhereverTheSignerStandsAndFaces) {
   EXPECT_EQ(contact_sheet(motion), contact_sheet(turned));
 }
 
-TEST(ContactSheet, ShowsTheFaceThatTheTracksTellOf) {
+TEST(ContactSheet, ShowsTheFaceOfTheTracks) {
   Motion motion = standing(4);
   motion.add_track({"jawOpen", {0, 1, 0, 0}});
   motion.add_track({"eyeBlinkLeft", {0, 0, 1, 0}});
@@ -227,10 +227,10 @@ TEST(ContactSheet, ShowsTheFaceThatTheTracksTellOf) {
     pupils.push_back(std::distance(circles.begin(), circles.end()));
   }
   EXPECT_EQ(faces.size(), 4U);
-  EXPECT_THAT(pupils, testing::ElementsAre(2, 2, 1, 2));  // a shut eye shows none
+  EXPECT_THAT(pupils, testing::ElementsAre(2, 2, 1, 2));  // a closed eye has no pupil
 }
 
-TEST(ContactSheet, TurnsItsFiguresWhereAsked) {
+TEST(ContactSheet, TurnsItsFiguresOnRequest) {
   const auto extent = [](double turn) {
     ContactSheetOptions options;
     options.turn = turn;
@@ -281,7 +281,7 @@ TEST(ContactSheet, HasTheSameBytesForTheSameMotionAndNumbersOfOnePlace) {
   EXPECT_EQ(numbers, 24U * 12 * 4);
 }
 
-TEST(ContactSheet, DrawsASkeletonWhoseNamesSayNothing) {
+TEST(ContactSheet, DrawsASkeletonWithMeaninglessNames) {
   const auto plain = std::make_shared<const Skeleton>(
       std::vector<Joint>{
           {"a", kNoJoint, {0, 1, 0}, true}, {"b", 0, {0, 0.5f, 0}, false}, {"c", 1, {0.5f, 0, 0}, false}},
@@ -302,7 +302,7 @@ Motion changed(const std::function<void(Joint&)>& change, std::int64_t frames = 
       {100, 1}, frames);
 }
 
-TEST(ContactSheet, DrawsTheSameTrunkWhereTheRootIsOnTheGround) {
+TEST(ContactSheet, DrawsTheSameTrunkIfTheRootIsOnTheGround) {
   const auto straight = body();
   std::vector<Joint> joints = {{"Scene", kNoJoint, {0, 0, 0}, true}};
   for (Joint joint : straight->joints()) {
@@ -315,7 +315,7 @@ TEST(ContactSheet, DrawsTheSameTrunkWhereTheRootIsOnTheGround) {
   EXPECT_EQ(contact_sheet(grounded), contact_sheet(standing(1)));
 }
 
-TEST(ContactSheet, FindsArmsByShapeWhereNamesCallThemOtherwise) {
+TEST(ContactSheet, FindsArmsByShapeIfNamesDoNotIdentifyThem) {
   const Motion collars = changed([](Joint& joint) {
     const std::string side = joint.name.starts_with("Left") ? "Left" : "Right";
     if (joint.name == side + "Arm") joint.name = side + "Shoulder";
@@ -323,14 +323,14 @@ TEST(ContactSheet, FindsArmsByShapeWhereNamesCallThemOtherwise) {
     if (joint.name == side + "Hand") joint.name = side + "Wrist";
   });
   EXPECT_EQ(contact_sheet(collars), contact_sheet(standing(1)));
-  // Names without sides: left is told by the toes.
+  // Names without sides: the toes determine which side is left.
   const Motion sideless = changed([](Joint& joint) {
     if (!joint.name.ends_with("Eye") && joint.name != "Head") joint.name = "j";
   });
   EXPECT_EQ(contact_sheet(sideless), contact_sheet(standing(1)));
 }
 
-TEST(ContactSheet, GivesAHeadWithoutEyesAFaceWhereTracksTellOfOne) {
+TEST(ContactSheet, GivesAHeadWithoutEyesAFaceIfTracksDescribeOne) {
   const auto blind = [] {
     return changed([](Joint& joint) {
       if (joint.name.ends_with("Eye")) joint.name = joint.name.starts_with("Left") ? "LeftLid" : "RightLid";
@@ -371,7 +371,7 @@ TEST(ContactSheet, ARestPoseAmongTheFramesDoesNotMakeTheOthersSmall) {
   const std::vector<double> with = heads(true);
   const std::vector<double> without = heads(false);
   EXPECT_NEAR(with[5], without[5], 0.11);
-  EXPECT_LT(with[0], 0.7 * with[5]);  // smaller, so that its hands are inside
+  EXPECT_LT(with[0], 0.7 * with[5]);  // smaller, so that its hands are inside the cell
 }
 
 TEST(ContactSheet, RefusesWhatItCannotDraw) {

@@ -15,14 +15,14 @@ namespace {
 // Pixels.
 constexpr double kLinesLeft = 70;
 constexpr double kField = 640;
-constexpr double kLinesNames = 210;  // right of the field
+constexpr double kLinesNames = 210;  // to the right of the field
 constexpr double kLinesHeight = 280;
 constexpr double kLinesTitle = 40;
 constexpr double kLinesFoot = 40;
-constexpr double kNameStep = 15;  // between names at least
-constexpr double kSpread = 5;     // rows beside each other at one place
+constexpr double kNameStep = 15;  // minimum distance between names
+constexpr double kSpread = 5;     // between rows at one position
 constexpr const char* kLinesInk = "#202226";
-// Okabe and Ito 2008: told apart by colour-blind readers too.
+// Okabe and Ito 2008: distinguishable by colour-blind readers.
 constexpr const char* kColours[] = {"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000"};
 constexpr const char* kDashes[] = {"", "6 3", "2 3"};
 
@@ -69,7 +69,7 @@ double top_of(const ErrorPanel& panel) {
   return top > 0 ? top * 1.05 : 1;
 }
 
-/// Where the names stand: at their lines' ends, as far apart as letters need.
+/// The heights of the names: at the ends of their lines, spaced far enough apart for the letters.
 std::vector<double> name_places(std::vector<double> wanted, double head, double bottom) {
   std::vector<std::size_t> order(wanted.size());
   std::iota(order.begin(), order.end(), 0u);

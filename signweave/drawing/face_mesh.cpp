@@ -13,14 +13,14 @@ using Eigen::Vector3f;
 
 enum class FacePart { brow, eye, mouth };
 
-/// A vertex before it is laid onto the head. Coordinates are in half heights of the head: x to the person's left, y up.
+/// A vertex before it is placed on the head. Coordinates are in half heights of the head: x to the person's left, y up.
 struct Point {
   FacePart part;
   float side = 0;  ///< 1 the person's left, −1 right, 0 the mouth
   Vector2f place;
   float along = 0;  ///< brow: 0 inner end … 1 outer; mouth: −1 right corner … 1 left
   float lower = 0;  ///< mouth: 0 upper lip … 1 lower lip
-  float out = 0;    ///< how far before the head's surface
+  float out = 0;    ///< distance in front of the head's surface
 };
 
 constexpr float kEyeX = 0.30f;
@@ -28,7 +28,7 @@ constexpr float kEyeY = 0.02f;
 constexpr float kBrowY = 0.24f;
 constexpr float kMouthY = -0.50f;
 
-/// What a target does to a point, at weight 1.
+/// The effect of a target on a point, at weight 1.
 struct Effect {
   const char* name;
   void (*move)(Point& point);
@@ -44,19 +44,19 @@ bool concerns(const Point& point) {
   return point.part == kPart && on_side<kSide>(point);
 }
 
-/// Eye: its height times kHeight percent.
+/// Eye: scales its height to kHeight percent.
 template <int kSide, int kHeight>
 void open_eye(Point& point) {
   if (!concerns<kSide, FacePart::eye>(point)) return;
   point.place.y() = kEyeY + (point.place.y() - kEyeY) * static_cast<float>(kHeight) / 100;
 }
-/// Brow: its inner and outer end up by so many hundredths.
+/// Brow: raises its inner and outer end by this many hundredths.
 template <int kSide, int kInner, int kOuter>
 void lift_brow(Point& point) {
   if (!concerns<kSide, FacePart::brow>(point)) return;
   point.place.y() += (kInner * (1 - point.along) + kOuter * point.along) / 100;
 }
-/// A corner of the mouth out and up by so many hundredths; what is nearer the middle follows less.
+/// Moves a corner of the mouth out and up by this many hundredths; points nearer to the middle move less.
 template <int kSide, int kOut, int kUp>
 void pull_corner(Point& point) {
   if (!concerns<kSide, FacePart::mouth>(point)) return;
@@ -64,7 +64,8 @@ void pull_corner(Point& point) {
   point.place.x() += (point.along > 0 ? 1.0f : -1.0f) * share * kOut / 100;
   point.place.y() += share * share * kUp / 100;
 }
-/// The mouth as wide as kWidth percent, its lips kApart hundredths further apart and kForward further out.
+/// Scales the mouth to kWidth percent of its width, and moves its lips kApart hundredths further apart and kForward
+/// further out.
 template <int kWidth, int kApart, int kForward>
 void round_mouth(Point& point) {
   if (point.part != FacePart::mouth) return;
@@ -109,8 +110,8 @@ constexpr Effect kEffects[] = {
     {"mouthStretchRight", pull_corner<-1, 12, -2>},
 };
 
-/// A point on the head's front, a little before its surface.
-Vector3f laid_on(const HeadShape& head, const Point& point) {
+/// The position of a point on the head's front, a little in front of its surface.
+Vector3f placed_on(const HeadShape& head, const Point& point) {
   const float x = point.place.x() * head.half.y();
   const float y = point.place.y() * head.half.y();
   // The same ellipsoid as the skull, which is narrower at the chin.
@@ -127,7 +128,7 @@ struct FaceDrawing {
   std::vector<Point> points;
   std::vector<std::uint32_t> indices;
 
-  /// Triangles between two rows of points of equal length, the second begun right after the first.
+  /// Adds triangles between two rows of points of equal length, the second of which follows the first directly.
   void strip(std::uint32_t first, std::uint32_t length, bool closed) {
     for (std::uint32_t i = 0; i + (closed ? 0 : 1) < length; ++i) {
       const std::uint32_t next = (i + 1) % length;
@@ -168,7 +169,7 @@ FaceDrawing draw() {
   }
   const std::uint32_t mouth = face.count();
   constexpr std::uint32_t kCorners = 24;
-  for (const float size : {1.0f, 0.55f}) {  // the lips' outer and inner edge
+  for (const float size : {1.0f, 0.55f}) {  // the outer and inner edge of the lips
     for (std::uint32_t i = 0; i < kCorners; ++i) {
       const float angle = 2 * std::numbers::pi_v<float> * static_cast<float>(i) / kCorners;
       const float high = size == 1.0f ? 0.055f : 0.004f;
@@ -180,7 +181,7 @@ FaceDrawing draw() {
     }
   }
   face.strip(mouth, kCorners, true);
-  // Left is x, up is y, so what is counter-clockwise here is seen from the front.
+  // Left is x and up is y, so triangles that are counter-clockwise here face the front.
   for (std::size_t i = 0; i < face.indices.size(); i += 3) {
     std::uint32_t* corner = &face.indices[i];
     const Vector2f a = face.points[corner[1]].place - face.points[corner[0]].place;
@@ -205,7 +206,7 @@ FaceMesh face_mesh(const HeadShape& head, const std::vector<std::string>& target
   const FaceDrawing face = draw();
   FaceMesh mesh;
   mesh.indices = face.indices;
-  for (const Point& point : face.points) mesh.positions.push_back(laid_on(head, point));
+  for (const Point& point : face.points) mesh.positions.push_back(placed_on(head, point));
   mesh.normals.assign(mesh.positions.size(), head.forward);
   for (const std::string& name : targets) {
     const auto* effect =
@@ -215,7 +216,7 @@ FaceMesh face_mesh(const HeadShape& head, const std::vector<std::string>& target
     for (std::size_t i = 0; i < face.points.size(); ++i) {
       Point moved = face.points[i];
       effect->move(moved);
-      target.deltas.emplace_back(laid_on(head, moved) - mesh.positions[i]);
+      target.deltas.emplace_back(placed_on(head, moved) - mesh.positions[i]);
     }
     mesh.targets.push_back(std::move(target));
   }

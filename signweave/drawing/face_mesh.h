@@ -10,9 +10,9 @@
 
 namespace signweave {
 
-/// One way in which the face can move: how far each vertex goes at weight 1.
+/// One movement of the face: how far each vertex moves at weight 1.
 struct FaceTarget {
-  std::string name;                     ///< ARKit's, such as "jawOpen"
+  std::string name;                     ///< an ARKit name, such as "jawOpen"
   std::vector<Eigen::Vector3f> deltas;  ///< [vertex], metres
 };
 
@@ -20,14 +20,14 @@ struct FaceTarget {
 struct FaceMesh {
   std::vector<Eigen::Vector3f> positions;  ///< metres, in the plan's pose
   std::vector<Eigen::Vector3f> normals;    ///< unit
-  std::vector<std::uint32_t> indices;      ///< three a triangle
+  std::vector<std::uint32_t> indices;      ///< three per triangle
   std::vector<FaceTarget> targets;
 };
 
-/// The names that the drawn face has a target for. Left and right are the person's own.
+/// The names for which the drawn face has a target. Left and right are the person's own.
 std::span<const char* const> face_target_names();
 
-/// The face of a head, with targets of the given names (of those above) in their order.
+/// The face of a head, with targets of the given names (from face_target_names), in their order.
 FaceMesh face_mesh(const HeadShape& head, const std::vector<std::string>& targets);
 
 }  // namespace signweave

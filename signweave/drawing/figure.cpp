@@ -26,7 +26,7 @@ constexpr double kFarAway = 1e3;  // metres
 constexpr const char* kInk = "#3a3034";
 constexpr const char* kRim = "#6b6a72";
 
-/// `near` from 0 (far: pale) to 1.
+/// Darkens with `near`, from 0 (far: pale) to 1.
 std::string shade(const Colour& colour, double near, double palest) {
   const double pale = palest * (1 - std::clamp(near, 0.0, 1.0));
   const auto mixed = [&](double value) { return static_cast<int>(std::lround(value + pale * (255 - value))); };
@@ -39,7 +39,7 @@ Colour colour_of(const FigurePart& part) {
   return part.arm || part.finger ? Colour{70, 74, 82} : kTrunk;
 }
 
-/// Around what has that part's colour.
+/// The rim colour of a part.
 Colour rim_of(const FigurePart& part) {
   const Colour colour = colour_of(part);
   return {0.46 * colour.red, 0.46 * colour.green, 0.46 * colour.blue};
@@ -47,8 +47,8 @@ Colour rim_of(const FigurePart& part) {
 
 struct Bone {
   Vector3f from, to;
-  std::size_t joint;  ///< whose part it is
-  std::size_t chain;  ///< bones of one finger share it
+  std::size_t joint;  ///< the joint it belongs to
+  std::size_t chain;  ///< shared by the bones of one finger
   bool skull = false;
 };
 
@@ -77,7 +77,7 @@ std::vector<Bone> bones_of(const Skeleton& skeleton, const FigurePlan& plan, con
   return bones;
 }
 
-/// Writes one figure's elements.
+/// Writes the elements of one figure.
 class FigureDrawing {
  public:
   FigureDrawing(const FigureView& view, std::string& out) : view_(view), out_(out) {}
@@ -120,11 +120,11 @@ class FigureDrawing {
   std::string& out_;
 };
 
-/// Where a face is: found from two eyes and the line from the head's joint to its top.
+/// The face's coordinate system, from two eyes and the line from the head's joint to its top.
 struct FaceSpace {
   Vector3f middle;             ///< between the eyes
   Vector3f left, up, forward;  ///< unit
-  float size = 1;              ///< of a head that is 0.19 m high above its joint
+  float size = 1;              ///< relative to a head that reaches 0.19 m above its joint
   Vector3f point(float x, float y, float z) const { return middle + size * (x * left + y * up + z * forward); }
 };
 
@@ -142,7 +142,7 @@ Eyes eyes_of(const std::vector<FigurePart>& parts) {
   return eyes;
 }
 
-/// Brows, eyes, nose and mouth, as far as they face the viewer.
+/// Draws brows, eyes, nose and mouth, as far as they face the viewer.
 void draw_face(const FaceSpace& head, const std::array<Vector3f, 2>& gaze, const FigureFace& face,
                FigureDrawing& drawing) {
   if (head.forward.z() < 0.05f) return;  // seen from behind
@@ -186,7 +186,7 @@ void draw_face(const FaceSpace& head, const std::array<Vector3f, 2>& gaze, const
                      "#b98f78", drawing.pixels(0.004, 0.8));
     }
   }
-  // The mouth, as two lips between its corners.
+  // The mouth: two lips between its corners.
   const float round = 1 - 0.55f * face.pucker - 0.40f * face.funnel;
   const float drop = 0.010f * face.jaw;
   const auto corner = [&](std::size_t i) {
@@ -206,7 +206,7 @@ void draw_face(const FaceSpace& head, const std::array<Vector3f, 2>& gaze, const
                "#4a1c22");
 }
 
-/// From the shoulders to the hips.
+/// Draws the trunk from the shoulders to the hips.
 void draw_trunk(const Vector3f& left, const Vector3f& right, const Vector3f& root, FigureDrawing& drawing) {
   const Vector3f across = 0.5f * (left - right);
   const Vector3f middle = 0.5f * (left + right);
@@ -217,14 +217,14 @@ void draw_trunk(const Vector3f& left, const Vector3f& right, const Vector3f& roo
                   at(-0.72f, 0.62f), at(-0.64f, 0.38f), at(-0.66f, 0.2f), at(-0.75f, -0.02f), at(0.75f, -0.02f),
                   at(0.66f, 0.2f), at(0.64f, 0.38f), at(0.72f, 0.62f), at(0.98f, 0.96f));
   const std::string colour = shade(kTrunk, drawing.near(static_cast<double>(middle.z())), 0.30);
-  // A trunk is about as deep as its shoulders are half as wide; from the front only its rim shows that.
+  // The depth of a trunk is about half the width of its shoulders; from the front only its rim shows that.
   const double depth = 0.95 * static_cast<double>(std::abs(across.z()));
   const double rim = drawing.pixels(0.004, 0.7);
   drawing.area(path, colour, kRim, drawing.pixels(depth, 0.0) + 2 * rim);
   drawing.area(path, colour, colour, drawing.pixels(depth, 0.0) + 0.1);
 }
 
-/// Skull, hair, face.
+/// Draws skull, hair and face.
 void draw_head(const Bone& skull, const ModelPose& pose, const Eyes& eyes, const std::optional<FigureHead>& shape,
                const std::array<Vector3f, 2>& gaze, const FigureFace& face, double near, double scale,
                FigureDrawing& drawing) {
@@ -254,8 +254,8 @@ void draw_head(const Bone& skull, const ModelPose& pose, const Eyes& eyes, const
   if (no_eyes) head.middle = middle + 0.08f * up + 0.8f * deep * head.forward;
   drawing.ellipse(middle + 0.035f * up, up, 1.04 * pixels(std::hypot(across * head.left.x(), deep * head.forward.x())),
                   pixels(along), "#5e493a", kRim);
-  // The face is what the hair leaves free of the skull: a cap about an axis that points forward and down. Where its
-  // edge is behind, the skull's outline takes its place.
+  // The face is the part of the skull not covered by hair: a cap about an axis that points forward and down. Where the
+  // cap's edge is behind, it is replaced by the skull's outline.
   const Vector3f axis = Vector3f(0, -0.50f, 0.866f);  // left, up, forward
   const Vector3f aside = Vector3f::UnitX();
   const Vector3f upwards = axis.cross(aside);
@@ -294,16 +294,16 @@ void draw_figure(const Skeleton& skeleton, const FigurePlan& plan, const ModelPo
   const std::vector<FigurePart>& parts = plan.parts;
   const std::vector<Bone> bones = bones_of(skeleton, plan, pose);
 
-  // The trunk lies between the shoulders; whatever is not before it is behind.
+  // The trunk lies between the shoulders; everything that is not in front of it is behind it.
   std::optional<Vector3f> left, right;
   for (std::size_t i = 0; i < parts.size(); ++i) {
-    // The first joint below which an arm's bone hangs.
+    // The first joint that is the parent of an arm's bone.
     if (!parts[i].arm || parts[i].side == BodySide::none) continue;
     const Vector3f& shoulder = pose.positions[static_cast<std::size_t>(skeleton.joints()[i].parent)];
     std::optional<Vector3f>& found = parts[i].side == BodySide::left ? left : right;
     if (!found) found = shoulder;
   }
-  // What is drawn at once, the farthest first: a finger, a palm, one bone of the rest.
+  // A unit of drawing, sorted by depth, the farthest first: a finger, a palm, or one bone of the rest.
   struct Item {
     std::vector<const Bone*> bones;
     double depth = 0;
@@ -364,7 +364,7 @@ void draw_figure(const Skeleton& skeleton, const FigurePlan& plan, const ModelPo
       const bool palm = part.palm && item->bones.front()->from != pose.positions[item->bones.front()->joint];
       const double width = drawing.pixels(palm ? 0.021 : 0.0165, palm ? 2.2 : 1.2);
       const std::string colour = shade(colour_of(part), near, 0.35);
-      // A dark rim keeps what overlaps apart.
+      // A dark rim separates overlapping parts.
       std::string path = fmt::format("M{}", drawing.at(item->bones.front()->from));
       for (const Bone* bone : item->bones) path += fmt::format("L{}", drawing.at(bone->to));
       if (palm) path += 'Z';
@@ -374,7 +374,7 @@ void draw_figure(const Skeleton& skeleton, const FigurePlan& plan, const ModelPo
     }
     const Bone& bone = *item->bones.front();
     const bool neck = !part.arm && (!left || bone.to.y() > left->y() + 0.02f);
-    // Inside the trunk bones would show nothing but themselves.
+    // Bones inside the trunk would add nothing to the picture.
     const Colour colour = part.side != BodySide::none || !neck || !left ? colour_of(part) : kSkin;
     double width = neck ? drawing.pixels(0.085, 2.0) : left ? 1.0 : drawing.pixels(0.055, 2.0);
     if (part.arm) {

@@ -13,32 +13,32 @@ namespace signweave {
 
 enum class BodySide { none, left, right };
 
-/// How a joint is drawn: what its name, its place in the hierarchy and, where names fail, the body's shape say.
+/// How a joint is drawn, from its name, its place in the hierarchy and, if names fail, the body's shape.
 struct FigurePart {
   BodySide side = BodySide::none;
   bool finger = false;  ///< beyond the wrist
-  bool palm = false;    ///< of those, the bone from the wrist to a finger's first joint
+  bool palm = false;    ///< of the fingers, the bone from the wrist to a finger's first joint
   bool arm = false;     ///< upper arm or forearm
   bool shown = true;    ///< part of the upper body
   bool head = false;
   bool in_head = false;  ///< eyes, jaw: not drawn as bones
   bool eye = false;
 };
-/// Where a head looks, in its joint's own space.
+/// The directions of a head, in its joint's own space.
 struct FigureHead {
   JointIndex joint = kNoJoint;
   Eigen::Vector3f left = Eigen::Vector3f::UnitX();  ///< unit, of the person
-  std::optional<Eigen::Vector3f> up;                ///< unit; where the skull's end points elsewhere
+  std::optional<Eigen::Vector3f> up;                ///< unit; given if the direction to the skull's end is not up
 };
 struct FigurePlan {
   std::vector<FigurePart> parts;  ///< [joint]
   std::size_t hips = 0;           ///< the joint where the trunk begins
   std::optional<FigureHead> head;
 };
-/// Of a motion of at least one frame. `rig` must be a map of its skeleton.
+/// The plan of a motion of at least one frame. `rig` must be a map of its skeleton.
 FigurePlan figure_plan(const Motion& motion, const RigMap& rig);
 
-/// Weights of a face from 0 to 1; all 0 for a face that does nothing.
+/// Weights of a face from 0 to 1; all 0 for a neutral face.
 struct FigureFace {
   float brow_inner_up = 0;
   float brow_up[2] = {}, brow_down[2] = {};           ///< left, right
@@ -48,15 +48,15 @@ struct FigureFace {
   float puff = 0;
   bool known = false;  ///< the motion has a face
 };
-/// From a motion's scalar tracks with the names of ARKit's blend shapes; what is missing is 0.
+/// Reads the face from a motion's scalar tracks named after ARKit's blend shapes; missing tracks are 0.
 FigureFace figure_face(const Motion& motion, std::int64_t frame);
 
-/// One figure in pixels of its own cell, from metres facing the viewer.
+/// Maps one figure, in metres and facing the viewer, to pixels of its own cell.
 struct FigureView {
   double left = 0, bottom = 0;  ///< pixels of x = 0 and of y = `low`
   double low = 0;               ///< metres
-  double scale = 1;             ///< pixels a metre
-  double near = 0, far = 0;     ///< metres of z: what is nearer is drawn stronger
+  double scale = 1;             ///< pixels per metre
+  double near = 0, far = 0;     ///< metres of z: nearer parts are drawn in a stronger tone
   double x(const Eigen::Vector3f& at) const { return left + scale * static_cast<double>(at.x()); }
   double y(const Eigen::Vector3f& at) const { return bottom - scale * (static_cast<double>(at.y()) - low); }
 };

@@ -9,7 +9,7 @@
 namespace signweave {
 namespace {
 
-/// What the map says of each joint itself.
+/// Copies what the map says about each joint.
 void take_map(const RigMap& rig, std::vector<FigurePart>& parts) {
   const auto place_side = [&](Part part, BodySide side) {
     if (rig.has(part)) parts[static_cast<std::size_t>(rig[part].joint)].side = side;
@@ -29,7 +29,7 @@ void take_map(const RigMap& rig, std::vector<FigurePart>& parts) {
   }
 }
 
-/// [joint] 'a' within an arm, 'l' within a leg or on the way to one, else ' '.
+/// [joint] 'a' within an arm, 'l' within a leg or between the root and one, else ' '.
 std::vector<char> limbs_of(const Skeleton& skeleton, const RigMap& rig) {
   std::vector<char> limbs(skeleton.joint_count(), ' ');
   for (const Side side : kSides) {
@@ -71,7 +71,7 @@ FigurePlan figure_plan(const Motion& motion, const RigMap& rig) {
   const ModelPose& pose = body.pose;
   FigurePlan plan;
   if (!body.trunk.empty()) plan.hips = static_cast<std::size_t>(body.trunk.front());
-  std::vector<bool> above_hips(skeleton.joint_count());  // what is drawn of them is nothing
+  std::vector<bool> above_hips(skeleton.joint_count());  // joints that are not drawn
   for (JointIndex joint = skeleton.joint(static_cast<JointIndex>(plan.hips)).parent; joint != kNoJoint;
        joint = skeleton.joint(joint).parent) {
     above_hips[static_cast<std::size_t>(joint)] = true;
@@ -108,10 +108,11 @@ FigurePlan figure_plan(const Motion& motion, const RigMap& rig) {
     part.palm = part.finger && !parts[parent].finger;
     part.arm = !part.finger && beyond_shoulder[parent];
     part.in_head = parts[parent].in_head || (parts[parent].head && !part.head);
-    // Where the map knows no legs, they are what grows beside the trunk and is low; arms stay even where they hang.
-    const bool beside = body.trunk.size() > 1 && static_cast<std::size_t>(body.trunk[1]) != i;
+    // If the map has no legs, limbs that start next to the trunk and are low count as legs; arms stay arms even if they
+    // hang down.
+    const bool next_to_trunk = body.trunk.size() > 1 && static_cast<std::size_t>(body.trunk[1]) != i;
     const bool low = highest[i] < pose.positions[plan.hips].y() + 0.03f * (top - bottom);
-    const bool leg = limbs[i] == 'l' || (parent == plan.hips && (low || beside));
+    const bool leg = limbs[i] == 'l' || (parent == plan.hips && (low || next_to_trunk));
     part.shown = (parts[parent].shown || parent == plan.hips) && !above_hips[parent] && (!leg || limbs[i] == 'a');
     if (part.side == BodySide::none) part.side = parts[parent].side;
   }

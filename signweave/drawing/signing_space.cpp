@@ -9,10 +9,10 @@
 namespace signweave {
 namespace {
 
-constexpr float kAside = 1.5f;          // shoulder widths: how far the lines go to each side
-constexpr double kEdge = 5;             // pixels that stay free at the cell's edges
+constexpr float kAside = 1.5f;          // shoulder widths: extent of the lines to each side
+constexpr double kEdge = 5;             // pixels left free at the cell's edges
 constexpr double kText = 6.5;           // pixels
-constexpr double kSeenFromTheSide = 6;  // pixels between the near and the far end of what is more than a line
+constexpr double kSeenFromTheSide = 6;  // pixels between near and far end above which a plane is more than a line
 
 std::string readable(std::string_view name) {
   std::string text(name);
@@ -40,7 +40,7 @@ void draw_signing_space(const SignerBody& body, const SignerSpace& space, const 
                    x, top, bottom, dashes);
   };
 
-  // What is seen of the space's box from x −kAside to kAside and from z 0 to where the near places end.
+  // The visible bounds of the space's box from x −kAside to kAside and from z 0 to the end of the near zone.
   const double corners[] = {x_of(-kAside, 0), x_of(kAside, 0), x_of(-kAside, body.near_reach),
                             x_of(kAside, body.near_reach)};
   const auto [left, right] = std::minmax_element(std::begin(corners), std::end(corners));
@@ -55,7 +55,7 @@ void draw_signing_space(const SignerBody& body, const SignerSpace& space, const 
                      "stroke-width=\"0.7\"/>\n",
                      *left, border, *right, border);
     }
-    // A name in the middle of its zone; above the head there is little room, and the name stands on the line.
+    // A name is in the middle of its zone; above the head there is little room, so that name is on the line.
     const bool highest = i + 1 == body.heights.size();
     const double middle = highest ? border - 2 : 0.5 * (above + border) + 0.35 * kText;
     if (highest ? border > kText + 2 : border - above > 0.8 * kText) {

@@ -7,8 +7,8 @@
 
 namespace signweave {
 
-/// Appends a signer's heights as lines with their names, and the borders of the zones across and in front, as SVG
-/// elements in a cell of so many pixels. They turn with the signer: a plane that is seen edge-on is a line.
+/// Appends a signer's heights as labelled lines, and the borders of the zones across and in front, as SVG elements in a
+/// cell of the given size in pixels. They turn with the signer: a plane seen edge-on is a line.
 void draw_signing_space(const SignerBody& body, const SignerSpace& space, const FigureView& view, double width,
                         double height, std::string& out);
 

@@ -22,7 +22,7 @@ using testing::Not;
 
 constexpr double kWidth = 190, kHeight = 188;
 
-/// The test person before the viewer, 150 pixels a metre, turned by so many degrees.
+/// The test person in front of the viewer at 150 pixels per metre, turned by the given degrees.
 struct DrawnSpace {
   SignerBody body;
   FigureView view{.left = 95, .bottom = 180, .low = 0.9, .scale = 150, .near = 0, .far = 0};
@@ -38,7 +38,7 @@ struct DrawnSpace {
     draw_signing_space(body, space, view, kWidth, kHeight, out);
     document.load_string((out + "</svg>").c_str());
   }
-  /// The places of the lines that lie or stand.
+  /// The positions of the horizontal or vertical lines.
   std::vector<double> lines(bool lying) const {
     std::vector<double> places;
     for (const pugi::xml_node line : document.child("svg").children("line")) {
@@ -80,7 +80,7 @@ TEST(DrawSigningSpace, ShowsTheZonesAcrossFromTheFrontAndTheReachFromTheSide) {
   EXPECT_THAT(side.text(), HasSubstr("near;far;"));
 }
 
-TEST(DrawSigningSpace, IsDrawnOnContactSheetsThatAskForIt) {
+TEST(DrawSigningSpace, IsDrawnOnContactSheetsThatRequestIt) {
   const Motion motion = moving(whole_person(), 5);
   EXPECT_THAT(contact_sheet(motion, {.rig = rig_of_signer(motion.skeleton())}), Not(HasSubstr("forehead")));
   EXPECT_THAT(contact_sheet(motion, {.signing_space = true, .rig = rig_of_signer(motion.skeleton())}),

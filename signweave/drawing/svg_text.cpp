@@ -23,7 +23,7 @@ std::string svg_text(std::string_view text) {
         result += "&quot;";
         break;
       default:
-        // XML allows no control characters but the white ones, not even escaped.
+        // XML allows no control characters except white space, not even escaped.
         if (byte < 0x20) {
           result += ' ';
         } else if (byte >= 0x7f && !readable) {
@@ -40,8 +40,8 @@ double svg_ems(std::string_view text) {
   double width = 0;
   for (const char c : text) {
     const auto byte = static_cast<unsigned char>(c);
-    if ((byte & 0xc0U) == 0x80) continue;  // goes on with a character
-    const bool wide = byte >= 0xe3;        // the scripts of East Asia, pictures
+    if ((byte & 0xc0U) == 0x80) continue;  // continuation byte of a character
+    const bool wide = byte >= 0xe3;        // East Asian scripts, pictographs
     const bool capital = c >= 'A' && c <= 'Z';
     width += wide ? 1.0 : capital ? 0.7 : 0.6;
   }

@@ -3,14 +3,14 @@
 #include <string>
 #include <string_view>
 
-/// Text in drawings. Part of formats, not for others.
+/// Text in drawings. Internal to drawing.
 namespace signweave {
 
-/// A text of any script as it may stand in an element or attribute of an SVG: markup escaped, control characters made
-/// blanks, bytes that are no UTF-8 made question marks.
+/// Escapes a text of any script for an element or attribute of an SVG: markup is escaped, control characters become
+/// blanks, and bytes that are not UTF-8 become question marks.
 std::string svg_text(std::string_view text);
 
-/// About how wide a text is, in its font's size: nothing here knows the font that a viewer takes.
+/// The approximate width of a text in ems; the viewer's font is not known here.
 double svg_ems(std::string_view text);
 
 }  // namespace signweave

@@ -8,7 +8,7 @@
 
 namespace signweave {
 
-/// For tests: a person of 1.7 m who looks along z in the rest pose, arms out, with four fingers a hand.
+/// For tests: a person of 1.7 m who faces along z in the rest pose, arms out, with four fingers per hand.
 inline std::shared_ptr<const Skeleton> person() {
   std::vector<Joint> joints = {{"Hips", kNoJoint, {0, 0.95f, 0}, true}, {"Spine", 0, {0, 0.2f, 0}, false},
                                {"Chest", 1, {0, 0.15f, 0}, false},      {"Neck", 2, {0, 0.2f, 0}, false},
@@ -38,7 +38,7 @@ inline std::shared_ptr<const Skeleton> person() {
   return std::make_shared<const Skeleton>(std::move(joints), std::move(tips));
 }
 
-/// The person moving: every joint turns a little, differently from frame to frame.
+/// A moving person: every joint turns a little, differently from frame to frame.
 inline Motion moving_person(std::int64_t frames) {
   Motion motion(person(), {100, 1}, frames);
   for (std::int64_t frame = 0; frame < frames; ++frame) {

@@ -13,25 +13,25 @@ namespace {
 
 // Pixels.
 constexpr double kBarsLeft = 66;     // the axis and its numbers
-constexpr double kRight = 118;       // what the mean and the band are
+constexpr double kRight = 118;       // labels of the mean and the band
 constexpr double kWidth = 1000;      // of the bars' field
-constexpr double kBarsHeight = 240;  // likewise
+constexpr double kBarsHeight = 240;  // the same
 constexpr double kBarsTitle = 40;    // above a row
 constexpr double kBarsFoot = 34;     // below a row without labels
 constexpr double kKey = 34;          // the key, at the top
 constexpr double kWidestBar = 40;    // with its gap
-constexpr double kLabelStep = 13;    // a bar with its gap must have so much for a label
+constexpr double kLabelStep = 13;    // minimum width of a bar with its gap for a label
 constexpr double kLabelSize = 11;
 constexpr double kLongestLabel = 150;
-constexpr double kGap = 0.22;  // of a bar's step
-// Dark and light blue-orange: told apart by lightness alone too.
+constexpr double kGap = 0.22;  // fraction of a bar's step
+// Dark and light shades of blue and orange, distinguishable by lightness alone.
 constexpr const char* kRetraction = "#1f4e79";
 constexpr const char* kPreparation = "#f0a94a";
 constexpr const char* kBetween = "#ffffff";
 constexpr const char* kBand = "#d9dbde";
 constexpr const char* kBarsInk = "#202226";
 
-/// A round step of the axis that makes about five of them.
+/// A round step that divides the axis into about five.
 double bar_axis_step(double top) {
   for (int power = 0;; ++power) {
     const double step = std::pow(10, power);
@@ -45,7 +45,7 @@ struct Row {
   const TransitionPanel* panel = nullptr;
   std::size_t begin = 0;
   std::size_t end = 0;
-  double labels = 0;  ///< pixels that they need below; 0: none
+  double labels = 0;  ///< pixels needed below; 0: none
 };
 
 std::string label_of(const TransitionBar& bar) {
@@ -60,7 +60,7 @@ std::vector<Row> rows_of(const std::vector<TransitionPanel>& panels) {
   std::vector<Row> rows;
   for (const TransitionPanel& panel : panels) {
     const std::size_t count = std::max<std::size_t>(1, (panel.bars.size() + kBarsPerRow - 1) / kBarsPerRow);
-    const std::size_t each = (panel.bars.size() + count - 1) / count;  // rows of one length
+    const std::size_t each = (panel.bars.size() + count - 1) / count;  // rows of equal length
     for (std::size_t i = 0; i < count; ++i) {
       Row row{&panel, i * each, std::min(panel.bars.size(), (i + 1) * each)};
       if (step_of(row) >= kLabelStep) {
@@ -75,7 +75,7 @@ std::vector<Row> rows_of(const std::vector<TransitionPanel>& panels) {
 }
 
 double height_of(const Row& row) {
-  return kBarsTitle + kBarsHeight + kBarsFoot + 0.87 * row.labels;  // they hang at 60°
+  return kBarsTitle + kBarsHeight + kBarsFoot + 0.87 * row.labels;  // they are rotated by 60°
 }
 
 /// Draws into `out`.
@@ -170,7 +170,7 @@ void draw_row(BarCanvas& canvas, const Row& row, double y, double top, double st
     }
   }
   const double mean = bottom - panel.mean * scale;
-  // Over the bars, edged in white, so that it is seen on every ground.
+  // Above the bars, with a white edge, so that it is visible on any background.
   canvas.put("<path d=\"M{:.1f} {:.1f}h{:.1f}\" stroke=\"#ffffff\" stroke-width=\"4\"/>", kBarsLeft, mean, kWidth);
   canvas.put("<path d=\"M{:.1f} {:.1f}h{:.1f}\" stroke=\"#000000\" stroke-width=\"2.2\"/>", kBarsLeft, mean, kWidth);
   canvas.text(kBarsLeft + kWidth + 6, mean + 4, 12, "start", fmt::format("mean {:.0f}", panel.mean));

@@ -46,22 +46,22 @@ TEST(TransitionPlot, ABarIsSplitIntoItsParts) {
   ASSERT_EQ(heights.size(), 3u);  // retraction, between, preparation
   EXPECT_NEAR(heights[2] / heights[0], 400.0 / 300, 1e-3);
   EXPECT_NEAR(heights[1] / heights[0], 50.0 / 300, 1e-3);
-  EXPECT_NEAR(tops[2] + heights[2], tops[1], 0.02);  // one on the other
+  EXPECT_NEAR(tops[2] + heights[2], tops[1], 0.02);  // one on top of the other
   EXPECT_NEAR(tops[1] + heights[1], tops[0], 0.02);
   EXPECT_THAT(text, HasSubstr("mean 700"));
   EXPECT_THAT(text, HasSubstr("+1 SD 900"));
   EXPECT_THAT(text, HasSubstr("<title>A → B: 750 ms (300 + 400) at 0 ms</title>"));
 }
 
-TEST(TransitionPlot, LabelsStandWhereThereIsRoom) {
+TEST(TransitionPlot, LabelsAreDrawnIfThereIsRoom) {
   EXPECT_EQ(count(transition_plot({panel(60)}), ">A → B</text>"), 60u);
   const std::string many = transition_plot({panel(200)});
   EXPECT_EQ(count(many, ">A → B</text>"), 0u);
   EXPECT_EQ(count(many, "<g>"), 200u);
-  EXPECT_THAT(many, HasSubstr("width=\"3.90\""));  // 5 pixels with the gap: to be seen
+  EXPECT_THAT(many, HasSubstr("width=\"3.90\""));  // 5 pixels with the gap: visible
 }
 
-TEST(TransitionPlot, ALongPanelGoesOnInFurtherRows) {
+TEST(TransitionPlot, ALongPanelContinuesInFurtherRows) {
   const std::string text = transition_plot({panel(401)});
   EXPECT_EQ(count(text, "<g>"), 401u);
   EXPECT_THAT(text, HasSubstr(", 1 to 134,"));
@@ -77,11 +77,11 @@ TEST(TransitionPlot, TextOfAnyScriptIsEscaped) {
   parsed_plot(text);
   EXPECT_THAT(text, Not(HasSubstr("<script>")));
   EXPECT_THAT(text, HasSubstr("天気 → &lt;/g&gt;&lt;script&gt;"));
-  one.bars[0].from = "caf\xe9";  // no UTF-8
+  one.bars[0].from = "caf\xe9";  // not UTF-8
   EXPECT_THAT(transition_plot({one}), HasSubstr("caf?"));
 }
 
-TEST(TransitionPlot, NothingIsADrawingToo) {
+TEST(TransitionPlot, NoPanelsGiveAnEmptyDrawing) {
   parsed_plot(transition_plot({}));
   parsed_plot(transition_plot({{.title = "empty"}}));
 }

@@ -20,7 +20,7 @@ struct Sums {
 struct Collection {
   std::vector<std::vector<Sums>> clusters;  ///< [cluster][part]
 
-  /// Pooled over some clusters and then over parts; not a number where nothing was measured.
+  /// Pooled over the drawn clusters and then over parts; NaN if nothing was measured.
   double figure(std::span<const std::uint32_t> drawn, std::vector<Sums>& scratch) const {
     scratch.assign(clusters.front().size(), Sums{});
     for (const std::size_t cluster : drawn) {
@@ -40,7 +40,7 @@ struct Collection {
   }
 };
 
-/// Of ascending numbers, between two of them where it must be.
+/// The percentile of ascending numbers, interpolated.
 double percentile(const std::vector<double>& sorted, double share) {
   const double exact = share * static_cast<double>(sorted.size() - 1);
   const auto below = static_cast<std::size_t>(exact);
@@ -55,7 +55,7 @@ const std::vector<std::uint32_t>& Bootstrap::draws_of(std::size_t collection, st
   if (!draws.empty()) return draws;
   std::mt19937_64 random(seed_ + collection * 0x9E3779B97F4A7C15u);
   draws.resize(resamples_ * clusters);
-  // The standard's distributions differ from library to library; the top bits times the count do not.
+  // Standard distributions differ between libraries; the top bits times the count do not.
   for (std::uint32_t& draw : draws) draw = static_cast<std::uint32_t>(((random() >> 32) * clusters) >> 32);
   return draws;
 }

@@ -11,33 +11,34 @@
 
 namespace signweave {
 
-/// A score with what it belongs to.
+/// A score with its cluster, collection and part.
 struct ClusteredScore {
-  std::size_t cluster = 0;  ///< scores of one are alike: a recording
+  std::size_t cluster = 0;  ///< scores of one cluster are correlated: a recording
   Measurement score;
   std::size_t collection = 0;  ///< of clusters
-  std::size_t part = 0;        ///< within every cluster: what is pooled by itself first, such as a gap length
+  std::size_t part = 0;        ///< pooled separately first, such as a gap length; spans all clusters
 };
 
-/// A figure, how sure it is and what it is from.
+/// A figure, its confidence interval and the size of its sample.
 struct Estimate {
-  double value = 0;  ///< not a number: nothing was measured
-  double low = 0;    ///< of an interval of kConfidence; not a number where there are fewer than two clusters
+  double value = 0;  ///< NaN: nothing was measured
+  double low = 0;    ///< of an interval of kConfidence; NaN with fewer than two clusters
   double high = 0;
   std::size_t scores = 0;
   std::size_t clusters = 0;
   std::size_t collections = 0;
 };
 
-/// A figure is pooled within each part of each collection; then parts weigh alike in a collection, and collections in
-/// the figure, however many scores they have. Intervals by the percentiles of figures from resampled clusters: within
-/// each collection whole clusters are drawn with replacement, as many as there are (Efron and Tibshirani 1993, An
-/// Introduction to the Bootstrap; for clusters Davison and Hinkley 1997). The same seed gives the same intervals.
+/// A figure is pooled within each part of each collection; then parts have equal weight in a collection, and
+/// collections in the figure, regardless of their number of scores. Intervals are percentiles of figures from resampled
+/// clusters: within each collection, as many whole clusters as there are are drawn with replacement (Efron and
+/// Tibshirani 1993, An Introduction to the Bootstrap; for clusters Davison and Hinkley 1997). The same seed gives the
+/// same intervals.
 class Bootstrap {
  public:
   explicit Bootstrap(std::uint64_t seed, std::size_t resamples = 1000) : seed_(seed), resamples_(resamples) {}
 
-  /// Scores that are not known are left out.
+  /// Unknown scores are ignored.
   Estimate estimate(std::span<const ClusteredScore> scores, Pooling pooling);
 
  private:
@@ -45,7 +46,7 @@ class Bootstrap {
 
   std::uint64_t seed_;
   std::size_t resamples_;
-  /// [place of the collection, clusters][resample][draw]
+  /// [index of the collection, clusters][resample][draw]
   std::map<std::pair<std::size_t, std::size_t>, std::vector<std::uint32_t>> draws_;
 };
 inline constexpr double kConfidence = 0.95;

@@ -9,7 +9,7 @@
 namespace signweave {
 namespace {
 
-TEST(Bootstrap, AMeanAGeometricMeanAndARatioArePooledAsTheySay) {
+TEST(Bootstrap, PoolsMeansGeometricMeansAndRatios) {
   Bootstrap bootstrap(1);
   const std::vector<ClusteredScore> scores = {{0, {1, 2}}, {1, {3, 4}}, {1, {5, 10}}};
   EXPECT_DOUBLE_EQ(bootstrap.estimate(scores, Pooling::ratio).value, 9.0 / 16.0);
@@ -18,7 +18,7 @@ TEST(Bootstrap, AMeanAGeometricMeanAndARatioArePooledAsTheySay) {
   EXPECT_DOUBLE_EQ(bootstrap.estimate(plain, Pooling::geometric).value, std::exp(3.0));
 }
 
-TEST(Bootstrap, WhatIsNotKnownDoesNotCount) {
+TEST(Bootstrap, UnknownScoresAreIgnored) {
   Bootstrap bootstrap(1);
   const double none = std::numeric_limits<double>::quiet_NaN();
   const Estimate estimate =
@@ -29,7 +29,7 @@ TEST(Bootstrap, WhatIsNotKnownDoesNotCount) {
   EXPECT_TRUE(std::isnan(bootstrap.estimate({}, Pooling::mean).value));
 }
 
-TEST(Bootstrap, OneClusterTellsNoInterval) {
+TEST(Bootstrap, OneClusterGivesNoInterval) {
   Bootstrap bootstrap(1);
   const Estimate estimate = bootstrap.estimate(std::vector<ClusteredScore>{{7, {2}}, {7, {4}}}, Pooling::mean);
   EXPECT_DOUBLE_EQ(estimate.value, 3);
@@ -48,12 +48,12 @@ TEST(Bootstrap, TheSameSeedGivesTheSameBits) {
   EXPECT_NE(interval(5), interval(6));
 }
 
-TEST(Bootstrap, IntervalsHoldTheTruthAboutAsOftenAsTheySayThoughScoresOfAClusterAreAlike) {
+TEST(Bootstrap, IntervalsCoverTheTruthDespiteCorrelatedScores) {
   std::mt19937_64 random(11);
   std::normal_distribution<double> normal;
   constexpr int kTrials = 300;
   int held = 0;
-  int held_by_scores = 0;  // what an interval would do that takes each score for itself
+  int held_by_scores = 0;  // for comparison: an interval that treats scores as independent
   for (int trial = 0; trial < kTrials; ++trial) {
     std::vector<ClusteredScore> scores;
     std::vector<ClusteredScore> alone;
@@ -76,9 +76,9 @@ TEST(Bootstrap, IntervalsHoldTheTruthAboutAsOftenAsTheySayThoughScoresOfACluster
   EXPECT_LT(held_by_scores, 75);
 }
 
-TEST(Bootstrap, CollectionsWeighAlikeAndPartsWithinThem) {
+TEST(Bootstrap, CollectionsAndTheirPartsHaveEqualWeight) {
   Bootstrap bootstrap(1);
-  // A collection of many scores of 1, and one of a single 3.
+  // A collection of many scores of 1, and one with a single 3.
   std::vector<ClusteredScore> scores;
   for (std::size_t i = 0; i < 50; ++i) scores.push_back({.cluster = i, .score = {1}, .collection = 0});
   scores.push_back({.cluster = 50, .score = {3}, .collection = 1});
@@ -86,8 +86,8 @@ TEST(Bootstrap, CollectionsWeighAlikeAndPartsWithinThem) {
   EXPECT_DOUBLE_EQ(estimate.value, 2);
   EXPECT_EQ(estimate.clusters, 51u);
   EXPECT_EQ(estimate.collections, 2u);
-  EXPECT_DOUBLE_EQ(estimate.low, 2) << "resampled within collections, which here tell nothing apart";
-  // Ratios of two parts, 1/2 and 4/2, however much more of one there is.
+  EXPECT_DOUBLE_EQ(estimate.low, 2) << "resampled within collections, which have no variance here";
+  // Ratios of two parts, 1/2 and 4/2, independent of their sizes.
   const std::vector<ClusteredScore> parts = {{.cluster = 0, .score = {1, 2}, .part = 0},
                                              {.cluster = 0, .score = {4, 2}, .part = 1},
                                              {.cluster = 1, .score = {40, 20}, .part = 1}};

@@ -10,10 +10,10 @@ using Eigen::Vector3f;
 using Path = std::span<const Vector3f>;
 
 constexpr double kNoError = std::numeric_limits<double>::infinity();
-constexpr float kVelocityReach = 0.1f;  // seconds: how far a velocity at a border counts as a place. (ours)
+constexpr float kVelocityReach = 0.1f;  // seconds: converts a velocity at a border to a distance. (ours)
 
-/// How far a clip is from the wanted one once its ends are shifted to meet: the mean over the frames between. Stops
-/// where it comes to more than `most`.
+/// Mean distance of a piece from the wanted path, over the frames between, after shifting its ends to meet. Stops if it
+/// exceeds `most`.
 double error_of(Path clip, Path wanted, double most) {
   const std::size_t last = wanted.size() - 1;
   const Vector3f begin = wanted[0] - clip[0];
@@ -27,7 +27,7 @@ double error_of(Path clip, Path wanted, double most) {
   return sum / static_cast<double>(last - 1);
 }
 
-/// How unlike the borders are, told from their frames and those outside of them alone. Squared metres.
+/// Dissimilarity of the borders, from their frames and those outside of them only. Squared metres.
 float border_distance(Path path, std::size_t at, Path wanted, std::size_t wanted_at, std::size_t last, float hertz) {
   const auto velocity = [&](Path of, std::size_t from) { return Vector3f(hertz * (of[from + 1] - of[from])); };
   const float reach = kVelocityReach * kVelocityReach;
@@ -43,7 +43,7 @@ bool alike(const EvaluatedMotion& a, const EvaluatedMotion& b) {
          !difference(a.motion.skeleton(), b.motion.skeleton());
 }
 
-/// What is nearest to a span.
+/// The nearest piece to a span.
 struct Nearest {
   double by_borders = kNoError;
   double knowing = kNoError;
@@ -64,11 +64,11 @@ Nearest nearest_to(std::span<const EvaluatedMotion> recordings, const EvaluatedS
     if (!like[r]) continue;
     const EvaluatedMotion& other = recordings[r];
     const Path path = other.tracks[static_cast<std::size_t>(span.moving)].seen;
-    std::int64_t spoiled = -1;  // the last frame that a defect spoils
+    std::int64_t spoiled = -1;  // the last unusable frame
     for (std::size_t end = 0; end < path.size(); ++end) {
       if (other.unusable[end]) spoiled = static_cast<std::int64_t>(end);
       if (end < last + 2) continue;
-      const std::size_t at = end - last - 1;  // the left border; `end` is the frame after the right one
+      const std::size_t at = end - last - 1;  // the left border; `end` is one past the right border
       if (static_cast<std::int64_t>(at) - 1 <= spoiled) continue;
       if (r == span.recording) {
         const auto begin = static_cast<std::int64_t>(at);

@@ -39,7 +39,7 @@ std::string fault_of(std::string_view text, std::vector<EvaluatedMotion> recordi
   return "none";
 }
 
-TEST(CollectionTable, SaysWhichCollectionAndSigner) {
+TEST(CollectionTable, AssignsCollectionAndSigner) {
   const std::vector<EvaluatedMotion> made = with("recording,collection,signer\nin/a.bvh, first , Ana\nc,more\n");
   EXPECT_EQ(made[0].collection, "first");
   EXPECT_EQ(made[0].performer, "Ana");
@@ -49,7 +49,7 @@ TEST(CollectionTable, SaysWhichCollectionAndSigner) {
   EXPECT_EQ(made[2].performer, "");
 }
 
-TEST(CollectionTable, WhatIsEmptyStays) {
+TEST(CollectionTable, EmptyFieldsChangeNothing) {
   const std::vector<EvaluatedMotion> made = with("b.bvh,,\na,,Ana\n");
   EXPECT_EQ(made[1].collection, "in");
   EXPECT_EQ(made[1].performer, "Bo");
@@ -59,13 +59,13 @@ TEST(CollectionTable, WhatIsEmptyStays) {
 
 TEST(CollectionTable, RecordingsThatWereLeftOutMayHaveARow) {
   EXPECT_EQ(with("d,first\na,first\n", some(), {"in/d.bvh"})[0].collection, "first");
-  EXPECT_EQ(fault_of("d,first\n"), "t.csv:1: no recording 'd' is evaluated on");
+  EXPECT_EQ(fault_of("d,first\n"), "t.csv:1: no evaluated recording is named 'd'");
 }
 
-TEST(CollectionTable, ErrorsNameTheLineAndWhatWouldMendIt) {
-  EXPECT_EQ(fault_of("a,x\n\nmore/d,x\n"), "t.csv:3: no recording 'more/d' is evaluated on");
+TEST(CollectionTable, ErrorsNameTheLineAndTheFix) {
+  EXPECT_EQ(fault_of("a,x\n\nmore/d,x\n"), "t.csv:3: no evaluated recording is named 'more/d'");
   EXPECT_EQ(fault_of("c.bhv,x\n"),
-            "t.csv:1: no recording 'c.bhv' is evaluated on; did you mean c.bvh, a.bvh or b.bvh?");
+            "t.csv:1: no evaluated recording is named 'c.bhv'; did you mean c.bvh, a.bvh or b.bvh?");
   EXPECT_EQ(fault_of("a\n"), "t.csv:1: 1 column; a row has recording, collection, and may have the signer");
   EXPECT_EQ(fault_of("a,b,c,d\n"), "t.csv:1: 4 columns; a row has recording, collection, and may have the signer");
   EXPECT_EQ(fault_of(",b\n"), "t.csv:1: no recording is named; the first column names one");
@@ -78,8 +78,8 @@ TEST(CollectionTable, ErrorsNameTheLineAndWhatWouldMendIt) {
             "t.csv: no row in it; a row has recording, collection, and may have the signer");
 }
 
-/// Whatever the names: each recording is where its row says, and recordings of one signer are left out together.
-RC_GTEST_PROP(CollectionTable, EveryRowIsFollowed, ()) {
+/// For any names: each recording has the collection of its row, and recordings of one signer are left out together.
+RC_GTEST_PROP(CollectionTable, EveryRowIsApplied, ()) {
   const auto count = *rc::gen::inRange<std::size_t>(1, 20);
   const auto quoted = [](const std::string& text) {
     std::string made = "\"";

@@ -13,12 +13,12 @@ namespace {
 
 using Eigen::Vector3f;
 
-/// A made point for a captured frame: where each is as far between the borders, linear between made frames.
-struct Place {
-  std::int64_t frame = 0;  ///< 0 the left border, then the made frames, then the right border
-  float share = 0;         ///< of the next one
+/// The generated position for a captured frame at the same relative time, interpolated linearly.
+struct FramePosition {
+  std::int64_t frame = 0;  ///< 0: the left border, then the generated frames, then the right border
+  float share = 0;         ///< weight of the next frame
 };
-Place place_of(std::int64_t frame, std::int64_t captured, std::int64_t made) {
+FramePosition place_of(std::int64_t frame, std::int64_t captured, std::int64_t made) {
   if (captured == made) return {frame + 1, 0};
   const double exact =
       static_cast<double>(frame + 1) / static_cast<double>(captured + 1) * static_cast<double>(made + 1);
@@ -27,13 +27,13 @@ Place place_of(std::int64_t frame, std::int64_t captured, std::int64_t made) {
 }
 
 double degrees_between(const Eigen::Quaternionf& a, const Eigen::Quaternionf& b) {
-  // By the sine of half the angle: a cosine near 1 says little.
+  // Uses the sine of half the angle, because a cosine near 1 is imprecise.
   const Eigen::Quaternionf turn = a.conjugate() * b;
   const double sine = static_cast<double>(turn.vec().norm());
   return 2 * std::atan2(sine, std::abs(static_cast<double>(turn.w()))) * 180 / std::numbers::pi;
 }
 
-/// Whether any of some joints turns by more than half a degree in a recording.
+/// True if any of the joints turns by more than half a degree in a recording.
 bool any_turns(const Motion& motion, const std::vector<JointIndex>& joints) {
   constexpr double kLeastTurn = 0.5;
   for (const JointIndex joint : joints) {
@@ -64,7 +64,8 @@ std::int64_t Comparison::margin_before(FrameRange frames) const noexcept {
   return std::min(margin_, frames.begin - 1);
 }
 
-void Comparison::lay_out(FrameRange frames, const std::vector<Vector3f>& captured, std::span<const Vector3f> between) {
+void Comparison::fill_path(FrameRange frames, const std::vector<Vector3f>& captured,
+                           std::span<const Vector3f> between) {
   const std::int64_t first = frames.begin - 1 - margin_before(frames);
   const std::int64_t end = std::min(frames.end + 1 + margin_, static_cast<std::int64_t>(captured.size()));
   path_.assign(captured.begin() + first, captured.begin() + frames.begin);
@@ -82,7 +83,7 @@ void Comparison::compare_angles(const EvaluatedSpan& span, PosesView made, Joint
   double sum = 0;
   for (std::int64_t frame = 0; frame < span.frames.size(); ++frame) {
     const PoseView captured = recording_.motion.pose(span.frames.begin + frame);
-    const Place place = place_of(frame, span.frames.size(), made.frames);
+    const FramePosition place = place_of(frame, span.frames.size(), made.frames);
     for (const JointIndex joint : joints) {
       const auto i = static_cast<std::size_t>(joint);
       Eigen::Quaternionf turn = pose(place.frame).rotations[i];
@@ -106,7 +107,7 @@ void Comparison::compare_hand(const EvaluatedSpan& span, PosesView made, Side si
     };
     double sum = 0;
     for (std::int64_t frame = 0; frame < count; ++frame) {
-      const Place place = place_of(frame, count, made.frames);
+      const FramePosition place = place_of(frame, count, made.frames);
       Vector3f where = point(place.frame);
       if (place.share > 0) where += place.share * (point(place.frame + 1) - where);
       sum += static_cast<double>((where - of_captured[at(span.frames.begin + frame)]).norm());
@@ -132,7 +133,7 @@ void Comparison::compare_hand(const EvaluatedSpan& span, PosesView made, Side si
   compare_angles(span, made, arm_of(side), score(Measure::arm_angle));
   compare_angles(span, made, fingers_of(side), score(Measure::finger_angle));
   if (!captured.depth.empty()) {
-    // Frames without number compare as not deeper.
+    // NaN compares as not deeper.
     const auto deepest = [](std::span<const float> depth) { return *std::max_element(depth.begin(), depth.end()); };
     const float before = deepest(std::span(captured.depth).subspan(at(span.frames.begin - 1), at(count + 2)));
     score(Measure::depth).value = 1000 * static_cast<double>(std::max(0.0f, deepest(track.depth) - before));
@@ -140,15 +141,15 @@ void Comparison::compare_hand(const EvaluatedSpan& span, PosesView made, Side si
 
   const auto all = std::span(captured.wrist);
   const std::int64_t left = margin_before(span.frames);
-  lay_out(span.frames, captured.wrist, all.subspan(at(span.frames.begin), at(count)));
+  fill_path(span.frames, captured.wrist, all.subspan(at(span.frames.begin), at(count)));
   WristKinematics& was = captured_[static_cast<std::size_t>(side)];
   was = meter_.measure(path_, left, count);
-  lay_out(span.frames, captured.wrist, track.wrist);
+  fill_path(span.frames, captured.wrist, track.wrist);
   WristKinematics& is = made_[static_cast<std::size_t>(side)];
   is = meter_.measure(path_, left, made.frames);
   if (!was.moves) return;
   const auto logarithms = [&](double made_one, double captured_one, Measure ratio, Measure error) {
-    // What stands still has no logarithm: as far below as a thousandth.
+    // Zero has no logarithm: limited to a thousandth.
     const double ln = std::log(std::max(made_one, 1e-3 * captured_one) / captured_one);
     score(ratio).value = ln;
     score(error).value = std::abs(ln);

@@ -21,7 +21,7 @@ SpansOf by_recording(std::span<const EvaluatedSpan> spans) {
   return of;
 }
 
-/// What the frames beside spans are taken from.
+/// The motion that the frames next to spans are taken from.
 const Motion& seen_of(const EvaluatedMotion& recording) {
   return recording.shaken ? *recording.shaken : recording.motion;
 }
@@ -33,7 +33,7 @@ Gap gap_of(std::span<const EvaluatedMotion> recordings, const EvaluatedSpan& spa
   return gap;
 }
 
-/// What a method made of a span, beside what comparing tells.
+/// Adds the scores of a generated span that do not come from the comparison.
 void add_made(const Regenerator::Made& made, SpanScores& scores) {
   for (auto& of : scores.of) {
     of[static_cast<std::size_t>(Measure::changed_frames)].value = static_cast<double>(made.changed);
@@ -41,7 +41,7 @@ void add_made(const Regenerator::Made& made, SpanScores& scores) {
   }
 }
 
-/// Makes every span by every method, with as many frames as `count_of(span)` says.
+/// Generates every span with every method, with `count_of(span)` frames.
 template <class CountOf>
 std::vector<MethodScores> make_all(std::span<const EvaluatedMotion> recordings, std::span<const EvaluatedSpan> spans,
                                    std::span<const GapMethod* const> methods, const EvaluationProgress& progress,
@@ -55,7 +55,7 @@ std::vector<MethodScores> make_all(std::span<const EvaluatedMotion> recordings, 
   }
   std::size_t done = 0;
   std::shared_ptr<const TransitionModel> model;
-  std::optional<std::size_t> left_out;  // of the model
+  std::optional<std::size_t> left_out;  // fold left out of the model
   for (const auto& [index, of_recording] : by_recording(spans)) {
     if (left_out != folds.of[index]) {
       left_out = folds.of[index];

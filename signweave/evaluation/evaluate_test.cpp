@@ -32,7 +32,7 @@ std::vector<SpanScores> by_method(const std::vector<MethodScores>& scores, std::
   return {};
 }
 
-TEST(Comparison, WhatWasCapturedIsWithoutError) {
+TEST(Comparison, CapturedFramesHaveNoError) {
   const EvaluatedMotion recording = lively("a", 0.4);
   const EvaluatedSpan span = span_at(recording, 0, {100, 130}, 0);
   Comparison comparison(recording);
@@ -50,7 +50,7 @@ TEST(Comparison, WhatWasCapturedIsWithoutError) {
   EXPECT_DOUBLE_EQ(jump.value, jump.weight);
 }
 
-TEST(Comparison, AWristThatIsAsideIsSoFarInMillimetresAndShoulderWidths) {
+TEST(Comparison, ADisplacedWristIsMeasuredInMillimetresAndShoulderWidths) {
   const EvaluatedMotion recording = lively("a", 0.4);
   const EvaluatedSpan span = span_at(recording, 0, {100, 130}, 0);
   Motion made = recording.motion.slice(span.frames);
@@ -62,13 +62,13 @@ TEST(Comparison, AWristThatIsAsideIsSoFarInMillimetresAndShoulderWidths) {
   EXPECT_NEAR(score(scores, Measure::wrist), 50, 0.01);
   EXPECT_NEAR(score(scores, Measure::wrist_widths), 0.05 / static_cast<double>(recording.signer.body->shoulder_width),
               1e-4);
-  EXPECT_NEAR(score(scores, Measure::fingertips), 0, 1e-3) << "seen from the wrist nothing has moved";
+  EXPECT_NEAR(score(scores, Measure::fingertips), 0, 1e-3) << "nothing moves relative to the wrist";
   EXPECT_NEAR(score(scores, Measure::arm_angle), 0, 1e-6);
   EXPECT_GT(scores.at(HandChoice::moving, Measure::velocity_jump).value,
             2 * 0.045 + scores.at(HandChoice::moving, Measure::velocity_jump).weight);
 }
 
-TEST(Comparison, AFingerThatIsBentIsSeenByTheFingersAlone) {
+TEST(Comparison, ABentFingerAffectsOnlyFingerMeasures) {
   const EvaluatedMotion recording = lively("a", 0.4);
   const EvaluatedSpan span = span_at(recording, 0, {100, 130}, 0);
   Motion made = recording.motion.slice(span.frames);
@@ -86,7 +86,7 @@ TEST(Comparison, AFingerThatIsBentIsSeenByTheFingersAlone) {
   EXPECT_NEAR(score(scores, Measure::finger_angle, HandChoice::left), 0.3 * 180 / 3.14159265 / 15, 0.01);
 }
 
-TEST(Evaluate, SlerpIsExactWhereJointsTurnAtOneSpeed) {
+TEST(Evaluate, SlerpIsExactAtConstantSpeed) {
   const std::vector<EvaluatedMotion> recordings = {
       recording_of("a", swinging([](double t) { return 0.3 * t; }, [](double t) { return 0.8 - 0.2 * t; }, 240))};
   const std::vector<EvaluatedSpan> spans = {span_at(recordings[0], 0, {80, 96}, 0)};
@@ -95,13 +95,13 @@ TEST(Evaluate, SlerpIsExactWhereJointsTurnAtOneSpeed) {
   EXPECT_LT(score(slerp, Measure::wrist), 0.01);
   EXPECT_LT(score(slerp, Measure::arm_angle), 0.01);
   EXPECT_NEAR(score(slerp, Measure::peak_speed), 0, 1e-3);
-  EXPECT_LT(score(by_method(scores, "crossfade")[0], Measure::wrist), 0.01) << "both sides go on as they came";
+  EXPECT_LT(score(by_method(scores, "crossfade")[0], Measure::wrist), 0.01) << "both sides continue as they came";
   EXPECT_LT(score(by_method(scores, "recipe")[0], Measure::wrist), 0.01) << "the nearest poses are the borders";
   EXPECT_GT(score(by_method(scores, "hold")[0], Measure::wrist), 5);
   EXPECT_GT(score(by_method(scores, "sine")[0], Measure::wrist), 1);
 }
 
-TEST(Evaluate, NoMethodTouchesACapturedFrame) {
+TEST(Evaluate, NoMethodModifiesACapturedFrame) {
   const std::vector<EvaluatedMotion> recordings = {lively("a", 0.1), lively("b", 2.0)};
   const SpanChoice choice = choose_spans(recordings);
   for (const MethodScores& method : evaluate_given(recordings, choice.spans, all_methods())) {
@@ -114,7 +114,7 @@ void spill(const GapJob& job, MutablePoses out) noexcept {
   out.rotations.data()[out.rotations.size()] = Eigen::Quaternionf(0.5f, 0.5f, 0.5f, 0.5f);
 }
 
-TEST(Regenerator, AMethodThatWritesPastTheGapIsCaught) {
+TEST(Regenerator, AMethodThatWritesPastTheGapIsDetected) {
   const EvaluatedMotion recording = lively("a", 0.1);
   const GapMethod method{"spill", "", Offered::evaluation, Needs::nothing, spill};
   const SignerRig rig{recording.signer, recording.groups};
@@ -124,7 +124,7 @@ TEST(Regenerator, AMethodThatWritesPastTheGapIsCaught) {
   EXPECT_EQ(regenerator.make(gap_methods()[0], {recording.motion, {100, 120}, 20}).changed, 0);
 }
 
-TEST(Evaluate, TwoRunsGiveTheSameBitsButForTheTimeTheyTook) {
+TEST(Evaluate, TwoRunsGiveTheSameBitsExceptForTimes) {
   const std::vector<EvaluatedMotion> recordings = {lively("a", 0.1), lively("b", 2.0)};
   const SpanChoice choice = choose_spans(recordings);
   const std::vector<MethodScores> one = evaluate_given(recordings, choice.spans, all_methods());
@@ -142,7 +142,7 @@ TEST(Evaluate, TwoRunsGiveTheSameBitsButForTheTimeTheyTook) {
   }
 }
 
-/// What every method makes of a gap with a model.
+/// The results of all methods for a gap with a model.
 std::vector<float> made_by_all(const EvaluatedMotion& recording, FrameRange frames, const TransitionModel& model) {
   std::vector<float> numbers;
   const SignerRig rig{recording.signer, recording.groups};
@@ -157,7 +157,7 @@ std::vector<float> made_by_all(const EvaluatedMotion& recording, FrameRange fram
   return numbers;
 }
 
-TEST(Purging, AModelWithoutARecordingKnowsNothingOfIt) {
+TEST(Purging, AModelWithoutARecordingIsIndependentOfIt) {
   std::vector<EvaluatedMotion> recordings = {lively("a", 0.1), lively("b", 2.0), lively("c", 4.0), lively("d", 5.0)};
   const std::vector<EvaluatedSpan> spans = choose_spans(recordings).spans;
   const FrameRange frames{200, 240};
@@ -169,18 +169,18 @@ TEST(Purging, AModelWithoutARecordingKnowsNothingOfIt) {
   changed[0] = lively("a", 9.0);
   const TransitionTrainer other = train(changed, spans, folds_of(changed));
   EXPECT_EQ(made_by_all(asked, frames, *other.model_without(0)), without_a);
-  // It can tell: with it, what the learning methods make is another.
+  // The check is sensitive: with the recording, the results of learning methods differ.
   EXPECT_NE(made_by_all(asked, frames, *trainer.model()), without_a);
   EXPECT_NE(made_by_all(asked, frames, *other.model_without(1)), made_by_all(asked, frames, *trainer.model_without(1)));
 }
 
-TEST(Purging, EverySpanIsMadeWithTheModelWithoutItsRecording) {
+TEST(Purging, EverySpanUsesTheModelWithoutItsRecording) {
   const std::vector<EvaluatedMotion> recordings = {lively("a", 0.1), lively("b", 2.0), lively("c", 4.0)};
   const std::vector<EvaluatedSpan> spans = choose_spans(recordings).spans;
   const std::vector<MethodScores> scores = evaluate_given(recordings, spans, all_methods());
   const TransitionTrainer trainer = train(recordings, spans, folds_of(recordings));
   const auto all = trainer.model();
-  bool tells = false;
+  bool differs = false;
   for (std::size_t i = 0; i < spans.size(); i += 7) {
     const EvaluatedMotion& recording = recordings[spans[i].recording];
     const auto without = trainer.model_without(spans[i].recording);
@@ -196,14 +196,14 @@ TEST(Purging, EverySpanIsMadeWithTheModelWithoutItsRecording) {
         return score(comparison.compare(spans[i], regenerator.make(*all_methods()[m], cut).poses), Measure::wrist);
       };
       EXPECT_EQ(score(scores[m].spans[i], Measure::wrist), wrist(*without)) << scores[m].name;
-      tells = tells || wrist(*all) != wrist(*without);
+      differs = differs || wrist(*all) != wrist(*without);
     }
   }
-  EXPECT_TRUE(tells) << "some method learns";
+  EXPECT_TRUE(differs) << "at least one method learns";
 }
 
-TEST(Purging, APredictedDurationDoesNotKnowItsOwnRecording) {
-  // Each recording's spans have one length of their own: a fit that knew it would be right.
+TEST(Purging, APredictedDurationIsIndependentOfItsRecording) {
+  // Each recording's spans have their own length: a fit that knew it would be exact.
   const std::vector<EvaluatedMotion> recordings = {lively("a", 0.1), lively("b", 2.0)};
   std::vector<EvaluatedSpan> spans;
   for (std::int64_t begin = 100; begin < 700; begin += 100) {
@@ -218,8 +218,8 @@ TEST(Purging, APredictedDurationDoesNotKnowItsOwnRecording) {
   }
 }
 
-TEST(Predicted, AnotherDurationIsComparedInItsOwnTime) {
-  // At one speed, slerp of any number of frames goes the same way.
+TEST(Predicted, AnotherDurationIsComparedInRelativeTime) {
+  // At constant speed, slerp follows the same path for any number of frames.
   const std::vector<EvaluatedMotion> recordings = {
       recording_of("a", swinging([](double t) { return 0.3 * t; }, [](double t) { return 0.8 - 0.2 * t; }, 240)),
       recording_of("b", swinging([](double t) { return 0.3 * t; }, [](double t) { return 0.8 - 0.2 * t; }, 240))};
@@ -240,16 +240,16 @@ TEST(Ceiling, ACopyIsFoundInAnotherRecordingAndARepetitionInTheSame) {
   };
   EXPECT_LT(wrist({one, lively("copy", 0.1)}, "nearest"), 1e-3);
   EXPECT_LT(wrist({one, lively("copy", 0.1)}, "ceiling"), 1e-3);
-  // Alone it has no other recording to choose from by its borders.
+  // With a single recording there is no other one for "nearest".
   EXPECT_TRUE(std::isnan(wrist({one}, "nearest")));
   EXPECT_GT(wrist({one}, "ceiling"), 1e-3);
-  // What moves the same way again and again repeats itself.
+  // A periodic movement repeats itself.
   const auto swing = [](double t) { return 0.6 - 0.6 * std::cos(4 * 3.14159265 / 3 * t); };
   const std::vector<EvaluatedMotion> again = {recording_of("a", swinging(swing, swing, 900))};
   EXPECT_LT(score(by_method(evaluate_ceiling(again, spans), "ceiling")[0], Measure::wrist), 0.1);
 }
 
-TEST(Ceiling, KnowingTheAnswerIsNeverWorseThanChoosingByTheBorders) {
+TEST(Ceiling, TheCeilingIsNeverWorseThanTheNearest) {
   const std::vector<EvaluatedMotion> recordings = {lively("a", 0.1), lively("b", 2.0), lively("c", 4.0)};
   const SpanChoice choice = choose_spans(recordings);
   const std::vector<MethodScores> rows = evaluate_ceiling(recordings, choice.spans);
@@ -272,7 +272,7 @@ std::vector<Sign> three_signs(const std::string& middle) {
   return signs;
 }
 
-TEST(Replaced, ATokenOfTheSameGlossFromElsewhereIsTakenFirst) {
+TEST(Replaced, ATokenOfTheSameGlossFromElsewhereIsPreferred) {
   std::vector<EvaluatedMotion> recordings = {lively("a", 0.1), lively("b", 2.0), lively("c", 4.0)};
   recordings[0].signs = three_signs("Y");
   recordings[1].signs = three_signs("Y");
@@ -280,7 +280,7 @@ TEST(Replaced, ATokenOfTheSameGlossFromElsewhereIsTakenFirst) {
   const std::vector<ReplacedSpan> spans = choose_replaced(recordings);
   ASSERT_EQ(spans.size(), 6u);
   for (const ReplacedSpan& one : spans) {
-    EXPECT_NE(one.source, one.span.recording) << "purged of the test recording";
+    EXPECT_NE(one.source, one.span.recording) << "from another recording";
     EXPECT_EQ(one.same_gloss, one.span.recording != 2);
     if (one.span.recording == 0) {
       EXPECT_EQ(one.source, 1u);
@@ -291,7 +291,7 @@ TEST(Replaced, ATokenOfTheSameGlossFromElsewhereIsTakenFirst) {
   EXPECT_EQ(spans[1].span.frames, (FrameRange{132, 156}));
 }
 
-TEST(Replaced, ATokenThatIsTheSameMovementHasTheSameKinematics) {
+TEST(Replaced, ATokenWithTheSameMovementHasTheSameKinematics) {
   std::vector<EvaluatedMotion> recordings = {lively("a", 0.1), lively("copy", 0.1)};
   for (EvaluatedMotion& recording : recordings) recording.signs = three_signs("Y");
   const std::vector<ReplacedSpan> spans = choose_replaced(recordings);

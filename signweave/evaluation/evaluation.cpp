@@ -14,7 +14,7 @@ bool spoils_frames(DefectKind kind) {
   return kind == DefectKind::t_pose || kind == DefectKind::jump || kind == DefectKind::not_finite;
 }
 
-/// Who makes most of the signs, the first by name of those who make as many; empty where no sign says.
+/// The performer of most signs, the first by name on a tie; empty if no sign has a performer.
 std::string performer_of(const std::vector<Sign>& signs) {
   std::map<std::string, std::size_t> counts;
   for (const Sign& sign : signs) {

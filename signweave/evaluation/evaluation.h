@@ -19,26 +19,26 @@
 
 namespace signweave {
 
-/// A recording to be evaluated on, and what is needed of it again and again.
+/// A recording of an evaluation, with derived data that is used repeatedly.
 struct EvaluatedMotion {
   std::string name;
   Motion motion;  ///< neighbours in one hemisphere
-  /// What the frames beside spans are taken from where they are to shake, see shake; null: from `motion`.
+  /// The motion with added noise that the frames next to spans are taken from, see shake; null: taken from `motion`.
   std::shared_ptr<const Motion> shaken;
-  CaptureNoise noise;  ///< of what these frames are taken from
+  CaptureNoise noise;  ///< of the motion that these frames are taken from
   SignerModel signer;
   JointGroups groups;
-  std::vector<Sign> signs;  ///< none: not annotated
+  std::vector<Sign> signs;  ///< empty: not annotated
   FrameClock clock;
   HandTracks tracks;           ///< over the whole motion
-  std::vector<bool> unusable;  ///< [frame] T-pose, jump, no number: no span and no context may hold it
-  std::string collection;      ///< recordings made together: a folder, a database; see Folds
-  std::string performer;       ///< who signs; empty: not known
+  std::vector<bool> unusable;  ///< [frame] T-pose, jump or non-finite: must not be in a span or its context
+  std::string collection;      ///< recordings captured together: a folder, a database; see Folds
+  std::string performer;       ///< the signer; empty: unknown
 };
 
-/// A recording for the evaluation. `signs` may be empty; most of them tell who performs. Throws Error{unsupported,
-/// "NAME: …"} where there is no wrist to look at, or fewer frames than kLeastFrames: nothing is wrong with such a
-/// motion, but nothing can be told of it.
+/// Prepares a recording for the evaluation. `signs` may be empty; the performer is that of most of them. Throws
+/// Error{unsupported, "NAME: …"} if there is no wrist, or fewer frames than kLeastFrames: such a motion is valid but
+/// cannot be evaluated.
 EvaluatedMotion evaluated_motion(std::string name, Motion motion, const RigMap& rig, std::vector<Sign> signs,
                                  const FrameClock& clock);
 inline constexpr std::int64_t kLeastFrames = 8;

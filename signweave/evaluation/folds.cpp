@@ -7,7 +7,7 @@
 namespace signweave {
 namespace {
 
-/// Numbers what recordings have in common, in the order of the recordings.
+/// Assigns a number to each distinct key, in the order of the recordings.
 template <class KeyOf>
 Folds numbered(std::span<const EvaluatedMotion> recordings, std::string_view by, KeyOf key_of) {
   Folds folds{.of = {}, .count = 0, .by = by};
@@ -19,7 +19,7 @@ Folds numbered(std::span<const EvaluatedMotion> recordings, std::string_view by,
   return folds;
 }
 
-/// Collections that share a performer become one.
+/// Joins collections that share a performer.
 void join_by_performer(std::span<const EvaluatedMotion> recordings, Folds& folds) {
   std::map<std::string, std::size_t> fold_of;
   for (std::size_t i = 0; i < recordings.size(); ++i) {

@@ -9,16 +9,17 @@
 
 namespace signweave {
 
-/// Which recordings are left out together while one of them is judged, so that nothing is learned from what is like it.
+/// Groups of recordings that are held out together while one of them is evaluated, so that nothing is learned from
+/// similar ones.
 struct Folds {
   std::vector<std::size_t> of;  ///< [recording]
   std::size_t count = 0;
   std::string_view by;  ///< "collection", "signer" or "recording"
 };
 
-/// By collection where there are several, and then all recordings of one performer too, whatever collections they are
-/// in; of one collection by performer where it has several, and those of whom nobody knows the performer go together;
-/// else each recording by itself.
+/// Folds by collection if there are several; collections that share a performer are then joined. A single collection is
+/// divided by performer if it has several; recordings of unknown performers form one fold. Otherwise each recording is
+/// a fold.
 Folds folds_of(std::span<const EvaluatedMotion> recordings);
 
 }  // namespace signweave

@@ -12,7 +12,7 @@ EvaluatedMotion recording(std::string collection, std::string performer) {
   return one;
 }
 
-TEST(Folds, CollectionsAreLeftOutWhole) {
+TEST(Folds, CollectionsAreLeftOutCompletely) {
   const std::vector<EvaluatedMotion> recordings = {recording("a", ""), recording("b", ""), recording("a", "")};
   const Folds folds = folds_of(recordings);
   EXPECT_EQ(folds.of, (std::vector<std::size_t>{0, 1, 0}));
@@ -34,14 +34,14 @@ TEST(Folds, CollectionsOfOnePerformerAreLeftOutByRecording) {
   EXPECT_EQ(folds.by, "recording");
 }
 
-TEST(Folds, OneCollectionIsSplitByPerformerWhereThereAreSeveral) {
+TEST(Folds, OneCollectionIsSplitBySeveralPerformers) {
   const Folds folds = folds_of(std::vector{recording("a", "Ana"), recording("a", "Bo"), recording("a", ""),
                                            recording("a", "Ana"), recording("a", "")});
-  EXPECT_EQ(folds.of, (std::vector<std::size_t>{0, 1, 2, 0, 2})) << "who is not known may be one person";
+  EXPECT_EQ(folds.of, (std::vector<std::size_t>{0, 1, 2, 0, 2})) << "unknown signers may be one person";
   EXPECT_EQ(folds.by, "signer");
 }
 
-TEST(Folds, ElseByRecording) {
+TEST(Folds, OtherwiseByRecording) {
   const Folds folds = folds_of(std::vector{recording("a", "Ana"), recording("a", ""), recording("a", "Ana")});
   EXPECT_EQ(folds.of, (std::vector<std::size_t>{0, 1, 2}));
   EXPECT_EQ(folds.count, 3u);

@@ -3,10 +3,10 @@
 #include <cstddef>
 #include <cstdint>
 
-/// Inside this module only.
+/// Internal to this module.
 namespace signweave {
 
-/// A frame as an index into lists of all frames; it must not be negative.
+/// Converts a frame number, which must not be negative, to an index.
 constexpr std::size_t at(std::int64_t frame) noexcept {
   return static_cast<std::size_t>(frame);
 }

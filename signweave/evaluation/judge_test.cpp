@@ -5,7 +5,7 @@
 namespace signweave {
 namespace {
 
-/// Two collections of three recordings with four spans each; `error` tells the method's error, the other's is 10.
+/// Two collections of three recordings with four spans each; `error` gives the method's error, the other's is 10.
 template <class Error>
 Judgement judged(Error error) {
   std::vector<EvaluatedSpan> spans;
@@ -23,14 +23,14 @@ Judgement judged(Error error) {
   return judge(method, other, spans, collection_of, 2, bootstrap);
 }
 
-TEST(Judge, AMethodThatIsBetterEverywhereWins) {
+TEST(Judge, AMethodBetterEverywhereWins) {
   const Judgement one = judged([](std::size_t, std::size_t) { return 8.0; });
   EXPECT_NEAR(one.all.value, 0.8, 1e-12);
   EXPECT_TRUE(one.worse_in().empty());
   EXPECT_TRUE(one.wins());
 }
 
-TEST(Judge, AMethodThatIsWorseInOneCollectionDoesNotHoweverGoodItIsInTheOther) {
+TEST(Judge, AMethodWorseInOneCollectionDoesNotWin) {
   const Judgement one = judged([](std::size_t recording, std::size_t) { return recording < 3 ? 2.0 : 11.0; });
   EXPECT_NEAR(one.all.value, 0.65, 1e-12);
   EXPECT_EQ(one.worse_in(), std::vector<std::size_t>{1});
@@ -45,7 +45,7 @@ TEST(Judge, WorseWithinTheIntervalIsNotWorse) {
   EXPECT_TRUE(one.wins());
 }
 
-TEST(Judge, AMethodThatIsAsGoodDoesNotWin) {
+TEST(Judge, AnEqualMethodDoesNotWin) {
   EXPECT_FALSE(judged([](std::size_t, std::size_t) { return 10.0; }).wins());
 }
 

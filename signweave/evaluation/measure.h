@@ -9,7 +9,7 @@
 
 namespace signweave {
 
-/// What is told of a made span, compared with the captured one. docs/evaluation.md defines each.
+/// Measures of a generated span, compared with the captured one; defined in docs/evaluation.md.
 enum class Measure : std::uint8_t {
   wrist,
   wrist_widths,
@@ -36,17 +36,17 @@ enum class Measure : std::uint8_t {
 };
 inline constexpr std::size_t kMeasures = 22;
 
-/// How the scores of several spans make one figure.
+/// How the scores of several spans are combined into one figure.
 enum class Pooling : std::uint8_t {
   mean,       ///< of the scores
   geometric,  ///< the scores are logarithms: the exponential of their mean
-  ratio,      ///< sum of what was made over sum of what was captured
+  ratio,      ///< sum over generated spans divided by sum over captured spans
 };
 
 struct MeasureInfo {
   Measure measure;
   std::string_view name;  ///< in JSON and with --full
-  std::string_view unit;  ///< "mm", "°", …; empty: a ratio or a number
+  std::string_view unit;  ///< "mm", "°", …; empty: a ratio or a count
   Pooling pooling = Pooling::mean;
   int decimals = 1;
 };
@@ -55,20 +55,19 @@ inline const MeasureInfo& info_of(Measure measure) noexcept {
   return measures()[static_cast<std::size_t>(measure)];
 }
 
-/// One figure of one span: what goes on top and what goes below the fraction line of a mean. Not a number above: not
-/// measured.
+/// One figure of one span: numerator and denominator of a mean. A NaN value: not measured.
 struct Measurement {
   double value = std::numeric_limits<double>::quiet_NaN();
   double weight = 1;
   bool known() const noexcept { return value == value && weight == weight; }
 };
 
-/// Which hand a figure is about.
+/// The hand that a figure describes.
 enum class HandChoice : std::uint8_t { left = 0, right = 1, moving = 2 };
 inline constexpr std::size_t kHandChoices = 3;
 std::string_view name_of(HandChoice hand) noexcept;
 
-/// Everything about one made span: [HandChoice][Measure].
+/// All measurements of one generated span: [HandChoice][Measure].
 struct SpanScores {
   std::array<std::array<Measurement, kMeasures>, kHandChoices> of;
   Measurement& at(HandChoice hand, Measure measure) noexcept {

@@ -13,8 +13,8 @@ namespace {
 
 constexpr double kNotMeasured = std::numeric_limits<double>::quiet_NaN();
 
-/// Weights of a cubic's derivative of some order at s = 0, fitted to s = -left … right by least squares. Per frame to
-/// the power of the order.
+/// Weights of the derivative of the given order at s = 0 of a cubic fitted to s = -left … right by least squares. The
+/// unit is frame^-order.
 std::vector<double> weights_of(std::int64_t left, std::int64_t right, std::int64_t order) {
   const auto count = static_cast<Eigen::Index>(left + right + 1);
   Eigen::Matrix<double, Eigen::Dynamic, 4> powers(count, 4);
@@ -103,7 +103,7 @@ double log_dimensionless_jerk(std::span<const double> speeds, std::span<const do
   if (speeds.empty() || speeds.size() != squared_jerks.size()) return kNotMeasured;
   const double step = rate.frame_time().count();
   const double peak = *std::max_element(speeds.begin(), speeds.end());
-  double integral = 0;  // by trapezia
+  double integral = 0;  // by the trapezoidal rule
   for (std::size_t i = 1; i < squared_jerks.size(); ++i) {
     integral += 0.5 * step * (squared_jerks[i - 1] + squared_jerks[i]);
   }
@@ -114,13 +114,13 @@ double log_dimensionless_jerk(std::span<const double> speeds, std::span<const do
 
 double spectral_arc_length(std::span<const double> speeds, FrameRate rate) {
   constexpr double kHighest = 10;      // Hz
-  constexpr double kThreshold = 0.05;  // of the greatest amplitude
+  constexpr double kThreshold = 0.05;  // relative to the largest amplitude
   if (speeds.size() < 2) return kNotMeasured;
   std::vector<std::complex<double>> spectrum(std::bit_ceil(speeds.size()) << 4);
   for (std::size_t i = 0; i < speeds.size(); ++i) spectrum[i] = speeds[i];
   transform(spectrum);
   const double hertz = rate.hertz() / static_cast<double>(spectrum.size());
-  std::size_t end = 0;  // of what counts
+  std::size_t end = 0;  // end of the used range
   double most = 0;
   std::vector<double> amplitudes;
   for (std::size_t i = 0; i <= spectrum.size() / 2; ++i) most = std::max(most, std::abs(spectrum[i]));
@@ -130,7 +130,7 @@ double spectral_arc_length(std::span<const double> speeds, FrameRate rate) {
     if (amplitudes.back() >= kThreshold) end = i + 1;
   }
   if (end < 2) return kNotMeasured;
-  const double step = 1 / static_cast<double>(end - 1);  // of frequency, as a share of the range that counts
+  const double step = 1 / static_cast<double>(end - 1);  // frequency step relative to the used range
   double length = 0;
   for (std::size_t i = 1; i < end; ++i) length += std::hypot(step, amplitudes[i] - amplitudes[i - 1]);
   return -length;

@@ -55,8 +55,8 @@ TEST(PathMeasures, AMinimumJerkMovementHasItsKnownPeakSpeed) {
   }
 }
 
-TEST(PathMeasures, AMinimumJerkMovementHasItsKnownSmoothnessWhateverItsSizeAndDuration) {
-  // 720 T⁻⁵ x² over (15/8 x/T)² T³. Where it begins and ends the jerk leaps, which a window of 0.1 s smooths: less so
+TEST(PathMeasures, AMinimumJerkMovementHasItsKnownSmoothnessAtAnySizeAndDuration) {
+  // 720 T⁻⁵ x² over (15/8 x/T)² T³. At both ends the jerk is discontinuous, which a window of 0.1 s smooths: less so
   // the longer the movement.
   const double known = -std::log(720.0 / (1.875 * 1.875));
   const FrameRate rate{120, 1};
@@ -68,15 +68,15 @@ TEST(PathMeasures, AMinimumJerkMovementHasItsKnownSmoothnessWhateverItsSizeAndDu
   }
 }
 
-TEST(PathMeasures, TheArticlesOwnExampleHasTheArticlesOwnValues) {
-  // Balasubramanian et al. give these for a speed of exp(-5 t²) at 100 Hz with their programs.
+TEST(PathMeasures, TheArticlesExampleHasTheArticlesValues) {
+  // Values that the programs of Balasubramanian et al. give for a speed of exp(-5 t²) at 100 Hz.
   const FrameRate rate{100, 1};
   const auto [speeds, jerks] = fitted(bell(rate), rate);
   EXPECT_NEAR(spectral_arc_length(speeds, rate), -1.41403, 0.002);
   EXPECT_NEAR(log_dimensionless_jerk(speeds, jerks, rate), -5.81636, 0.05);
 }
 
-TEST(PathMeasures, ATrembleIsLessSmooth) {
+TEST(PathMeasures, TremorIsLessSmooth) {
   const FrameRate rate{60, 1};
   std::vector<Vector3f> path = minimum_jerk(0.4, 1.0, rate);
   const auto still = fitted(path, rate);
@@ -88,7 +88,7 @@ TEST(PathMeasures, ATrembleIsLessSmooth) {
   EXPECT_LT(spectral_arc_length(trembling.speeds, rate), spectral_arc_length(still.speeds, rate) - 0.05);
 }
 
-TEST(PathMeasures, WhatKeepsStillHasNoSmoothness) {
+TEST(PathMeasures, AStillPathHasNoSmoothness) {
   const FrameRate rate{60, 1};
   const auto [speeds, jerks] = fitted(std::vector<Vector3f>(30, Vector3f(1, 2, 3)), rate);
   EXPECT_TRUE(std::isnan(log_dimensionless_jerk(speeds, jerks, rate)));
@@ -98,7 +98,7 @@ TEST(PathMeasures, WhatKeepsStillHasNoSmoothness) {
   EXPECT_TRUE(none.empty()) << "a cubic needs five points";
 }
 
-TEST(WristMeter, KnowsWhereAPathGoesAndWhenItIsFastest) {
+TEST(WristMeter, MeasuresLengthAndPeakOfAPath) {
   const FrameRate rate{100, 1};
   std::vector<Vector3f> path(10, Vector3f(0, 0, 1));
   for (const Vector3f& point : minimum_jerk(0.3, 0.5, rate)) path.push_back(point);
@@ -113,7 +113,7 @@ TEST(WristMeter, KnowsWhereAPathGoesAndWhenItIsFastest) {
   EXPECT_NEAR(found.onset, 0.088, 0.03);
 }
 
-TEST(WristMeter, AKinkAtTheSeamIsAJumpOfVelocity) {
+TEST(WristMeter, AKinkAtTheSeamIsAVelocityJump) {
   const FrameRate rate{100, 1};
   std::vector<Vector3f> path;
   for (int i = 0; i < 40; ++i) path.emplace_back(0.01f * static_cast<float>(i), 0.0f, 0.0f);

@@ -9,7 +9,7 @@
 namespace signweave {
 namespace {
 
-std::string without_ending(const std::string& name) {
+std::string without_extension(const std::string& name) {
   return std::filesystem::path(name).extension() == ".bvh" ? name.substr(0, name.size() - 4) : name;
 }
 
@@ -38,7 +38,7 @@ std::vector<std::string> csv_fields(TextReader& reader) {
 }
 
 bool names_recording(const std::string& name, const std::string& whole) {
-  return fmt::format("/{}", without_ending(whole)).ends_with(fmt::format("/{}", without_ending(name)));
+  return fmt::format("/{}", without_extension(whole)).ends_with(fmt::format("/{}", without_extension(name)));
 }
 
 std::size_t recording_named(const std::string& name, std::span<const EvaluatedMotion> recordings,
@@ -53,7 +53,7 @@ std::size_t recording_named(const std::string& name, std::span<const EvaluatedMo
   }
   if (found.size() == 1) return found[0];
   if (found.empty()) {
-    reader.fail(fmt::format("no recording '{}' is evaluated on{}", printable(name), did_you_mean(name, known)));
+    reader.fail(fmt::format("no evaluated recording is named '{}'{}", printable(name), did_you_mean(name, known)));
   }
   reader.fail(fmt::format("'{}' is the name of {} recordings; give its folder too", printable(name), found.size()));
 }

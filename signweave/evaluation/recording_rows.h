@@ -1,6 +1,6 @@
 #pragma once
 
-// What tables about recordings have in common: rows of CSV, of which a column names a recording.
+// Common functions for CSV tables about recordings, in which a column names a recording.
 
 #include <cstddef>
 #include <optional>
@@ -13,17 +13,17 @@
 
 namespace signweave {
 
-/// The fields of the rest of a line of CSV, without blanks at their ends; a field may be quoted, and double quotes
-/// stand for one inside. Throws Error{bad_input, "FILE:LINE: …"} for a quote that is not closed.
+/// The fields of the rest of a CSV line, trimmed. A field may be quoted; two double quotes inside it mean one. Throws
+/// Error{bad_input, "FILE:LINE: …"} for an unclosed quote.
 std::vector<std::string> csv_fields(TextReader& reader);
 
-/// The recording that a row names: by its whole name, or by the end of it from a '/' on, with or without a motion
-/// file's ending, for a recording of a database has none. Throws Error{bad_input, "FILE:LINE: …"} where several are
-/// named so, and where none is, with near names.
+/// The index of the recording that a row names: by its full name, or by the end of it after a '/', with or without a
+/// motion file's extension, because recordings of a database have none. Throws Error{bad_input, "FILE:LINE: …"} if
+/// several match, or if none does, with near names.
 std::size_t recording_named(const std::string& name, std::span<const EvaluatedMotion> recordings,
                             const TextReader& reader);
 
-/// Whether a row that names `name` means the recording that is called `whole`.
+/// True if `name` in a row refers to the recording `whole`.
 bool names_recording(const std::string& name, const std::string& whole);
 
 }  // namespace signweave

@@ -11,14 +11,14 @@
 namespace signweave {
 namespace {
 
-/// Time of this thread alone: what else the machine does does not count.
+/// CPU time of this thread, independent of other load.
 double microseconds_of_thread() {
   timespec now{};
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
   return 1e6 * static_cast<double>(now.tv_sec) + 1e-3 * static_cast<double>(now.tv_nsec);
 }
 
-/// The same rotation of every joint, to the bit but for signs, and the same translations.
+/// True if all rotations are bit-identical except for signs, and all translations are equal.
 bool same_but_signs(PoseView a, PoseView b) {
   for (std::size_t joint = 0; joint < a.rotations.size(); ++joint) {
     const auto& one = a.rotations[joint].coeffs();
@@ -53,11 +53,11 @@ Regenerator::Made Regenerator::make(const GapMethod& method, const CutOut& cut) 
   const std::vector<MotionClip> clips = clips_around({&cut.frames, 1}, whole);
   const Plan plan = plan_with_gaps(clips, {&cut.count, 1});
   const FrameRange gap{cut.frames.begin, cut.frames.begin + cut.count};
-  const std::int64_t beside = std::max(filler_.context(), kGuard);
-  const FrameRange all{std::max<std::int64_t>(0, gap.begin - beside), std::min(plan.frames, gap.end + beside)};
+  const std::int64_t margin = std::max(filler_.context(), kGuard);
+  const FrameRange all{std::max<std::int64_t>(0, gap.begin - margin), std::min(plan.frames, gap.end + margin)};
   window_.reset(cut.motion.shared_skeleton(), cut.motion.rate(), all.size());
   const OutputWindow window{window_, all.begin};
-  // What a method leaves out is seen: nothing of the gap before is left here.
+  // Cleared, so that frames that a method does not fill are noticed.
   const MutablePoses out = window.poses(gap);
   std::ranges::fill(out.rotations, Eigen::Quaternionf::Identity());
   std::ranges::fill(out.translations, Eigen::Vector3f::Zero());

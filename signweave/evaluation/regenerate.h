@@ -10,29 +10,29 @@
 
 namespace signweave {
 
-/// The gap that is left when frames are cut out of a motion, and `count` are to be made in their place; a side is seen
-/// as far as kContext and the motion go. Borrowed from the motion. At least one frame must lie on either side.
+/// The gap that is left when `frames` are cut out of a motion and `count` frames are to be generated instead. Each side
+/// has at most kContext, limited by the motion. Borrowed from the motion. There must be at least one frame on either
+/// side.
 Gap gap_at(const Motion& motion, const JointGroups& groups, FrameRange frames, std::int64_t count);
 
-/// Frames that are cut out of a motion, and made anew. Borrowed.
+/// Frames that are cut out of a motion and regenerated. Borrowed.
 struct CutOut {
   const Motion& motion;    ///< neighbours in one hemisphere
-  FrameRange frames;       ///< at least one frame lies on either side
-  std::int64_t count = 0;  ///< that are made in their place
+  FrameRange frames;       ///< at least one frame is on either side
+  std::int64_t count = 0;  ///< number of frames generated instead
   const CaptureNoise* noise = nullptr;
 };
 
-/// Makes gaps anew, one after the other, in memory that is used again: each as the one made gap of a score, by what
-/// renders scores.
+/// Regenerates gaps one after the other, reusing memory: each as the only gap of a score, with the renderer of scores.
 class Regenerator {
  public:
-  /// What the settings point to must outlive it; their method is not looked at.
+  /// Everything that the settings point to must outlive it; their method is ignored.
   explicit Regenerator(const JunctionSettings& settings) : filler_(settings) {}
 
   struct Made {
     PosesView poses;           ///< borrowed until the next call
-    std::int64_t changed = 0;  ///< frames beside the gap that were written to, of kGuard on either side
-    double microseconds = 0;   ///< that making them took
+    std::int64_t changed = 0;  ///< number of modified frames next to the gap, of kGuard on either side
+    double microseconds = 0;   ///< time taken to generate them
   };
   Made make(const GapMethod& method, const CutOut& cut);
 

@@ -16,7 +16,7 @@ namespace {
 
 using Eigen::Vector3f;
 
-/// The frames of a sign's strokes; empty where it has none, or they reach out of the motion or a defect spoils them.
+/// The frames of a sign's strokes; empty if it has none, or they extend beyond the motion or contain a defect.
 FrameRange stroke_frames(const EvaluatedMotion& recording, const Sign& sign) {
   const std::optional<TimeSpan> span = sign.stroke_span();
   if (!span) return {};
@@ -26,7 +26,7 @@ FrameRange stroke_frames(const EvaluatedMotion& recording, const Sign& sign) {
   return std::find(spoiled + frames.begin, spoiled + frames.end, true) == spoiled + frames.end ? frames : FrameRange{};
 }
 
-/// How far the wrists of two recordings' frames lie apart, seen from the signers; squared metres.
+/// Distance between the wrists of two recordings' frames in signer-centred space; squared metres.
 double apart(const EvaluatedMotion& a, std::int64_t frame_a, const EvaluatedMotion& b, std::int64_t frame_b) {
   double sum = 0;
   for (std::size_t hand = 0; hand < 2; ++hand) {
@@ -36,7 +36,7 @@ double apart(const EvaluatedMotion& a, std::int64_t frame_a, const EvaluatedMoti
   return sum;
 }
 
-/// A token that may stand in a sign's place.
+/// A token that may replace a sign.
 struct Token {
   std::size_t recording = 0;
   FrameRange stroke;
@@ -70,8 +70,8 @@ std::optional<Token> token_for(std::span<const EvaluatedMotion> recordings, std:
   return best;
 }
 
-/// The two sides of a gap in one motion: what is kept of the recording, and the token brought to where the signer
-/// stands. `gap` lies between.
+/// The two sides of a gap in one motion: the kept side of the recording, and the token moved to where the signer
+/// stands, with `gap` between.
 struct Joined {
   Motion motion;
   FrameRange gap;
@@ -116,8 +116,8 @@ WristKinematics kinematics_of(const std::vector<Vector3f>& wrist, FrameRange gap
 }
 
 void compare(const WristKinematics& is, const WristKinematics& was, std::array<Measurement, kMeasures>& out) {
-  constexpr double kLeastWay = 0.02;  // metres: what hardly goes anywhere has no shape
-  if (!is.moves || !was.moves || is.chord < kLeastWay || was.chord < kLeastWay) return;
+  constexpr double kLeastChord = 0.02;  // metres: shorter movements have no meaningful shape
+  if (!is.moves || !was.moves || is.chord < kLeastChord || was.chord < kLeastChord) return;
   const auto put = [&](double difference, Measure signed_one, Measure error) {
     out[static_cast<std::size_t>(signed_one)].value = difference;
     out[static_cast<std::size_t>(error)].value = std::abs(difference);

@@ -7,13 +7,13 @@
 namespace signweave {
 namespace {
 
-/// Metres from a joint to the wrist that hangs on it, in the rest pose; 0 where none does.
+/// Distance from a joint to its descendant wrist in the rest pose, metres; 0 if there is none.
 double reach_of(const Skeleton& skeleton, JointIndex joint, const JointGroups& groups) {
   for (const JointIndex wrist : groups.wrists) {
-    Eigen::Vector3f way = Eigen::Vector3f::Zero();
+    Eigen::Vector3f offset = Eigen::Vector3f::Zero();
     for (JointIndex at = wrist; at != kNoJoint; at = skeleton.joints()[static_cast<std::size_t>(at)].parent) {
-      if (at == joint) return static_cast<double>(way.norm());
-      way += skeleton.joints()[static_cast<std::size_t>(at)].offset;
+      if (at == joint) return static_cast<double>(offset.norm());
+      offset += skeleton.joints()[static_cast<std::size_t>(at)].offset;
     }
   }
   return 0;

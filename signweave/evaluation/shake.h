@@ -6,9 +6,10 @@
 
 namespace signweave {
 
-/// Lets the frames beside the spans of a recording shake, as a poor capture does, and measures that noise; what is
-/// compared with stays as captured. White noise turns each shoulder and each elbow in every frame, so that the wrist is
-/// off by `metres` on each axis across the limb (standard deviation). The same seed gives the same noise.
+/// Adds noise, as of a poor capture, to the frames next to the spans of a recording, and measures it; the frames that
+/// results are compared with stay as captured. White noise rotates each shoulder and elbow in every frame such that the
+/// wrist is displaced by `metres` (standard deviation) on each axis across the limb. The same seed gives the same
+/// noise.
 void shake(EvaluatedMotion& recording, double metres, std::uint64_t seed);
 
 }  // namespace signweave

@@ -1,4 +1,4 @@
-// How a method does beside frames that shake, and that the noise which is known keeps it from swinging.
+// Tests of methods next to noisy frames, and that knowing the noise reduces their swing.
 
 #include "signweave/evaluation/shake.h"
 
@@ -10,13 +10,13 @@
 namespace signweave {
 namespace {
 
-/// Millimetres that a method's wrists are off, the mean over spans of two recordings whose borders shake by 4 mm.
+/// The mean wrist error of a method in millimetres, over spans of two recordings with 4 mm of noise at their borders.
 double wrist_error(std::string_view method, bool known) {
   std::vector<EvaluatedMotion> recordings = {lively("a", 0.4), lively("b", 1.9)};
   std::vector<EvaluatedSpan> spans;
   for (std::size_t i = 0; i < recordings.size(); ++i) {
     shake(recordings[i], 0.004, 1);
-    const float noise = 0.01f;  // about what 4 mm are at these arms
+    const float noise = 0.01f;  // about 4 mm with these arms
     recordings[i].noise.rotations.assign(recordings[i].motion.skeleton().joint_count(), 0.0f);
     for (std::size_t joint = 0; known && joint < recordings[i].groups.roles.size(); ++joint) {
       const JointRole role = recordings[i].groups.roles[joint];
@@ -35,7 +35,7 @@ double wrist_error(std::string_view method, bool known) {
   return sum / static_cast<double>(spans.size());
 }
 
-TEST(Shake, LetsTheFramesBesideSpansShakeAndNothingElse) {
+TEST(Shake, AddsNoiseOnlyNextToSpans) {
   const EvaluatedMotion clean = lively("a", 0.4);
   EvaluatedMotion one = lively("a", 0.4);
   EvaluatedMotion other = lively("a", 0.4);
@@ -52,7 +52,7 @@ TEST(Shake, LetsTheFramesBesideSpansShakeAndNothingElse) {
   }
 }
 
-TEST(Shake, NoiseThatIsKnownMakesWristsBetter) {
+TEST(Shake, KnowingTheNoiseImprovesWrists) {
   EXPECT_LT(wrist_error("kriging", true), 0.8 * wrist_error("kriging", false));
   EXPECT_LT(wrist_error("kriging", true), wrist_error("sine", true));
   EXPECT_LT(wrist_error("kriging", true), wrist_error("hermite", true));

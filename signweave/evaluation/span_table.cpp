@@ -11,14 +11,14 @@
 namespace signweave {
 namespace {
 
-/// Each is reported by itself.
+/// Each group is reported separately.
 constexpr std::size_t kMostGroups = 100;
 
 std::int64_t number_of(const std::string& text, std::string_view what, const TextReader& reader) {
   std::int64_t number = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
   if (error != std::errc() || end != text.data() + text.size()) {
-    reader.fail(fmt::format("the {} '{}' is no whole number", what, printable(text)));
+    reader.fail(fmt::format("the {} '{}' is not a whole number", what, printable(text)));
   }
   return number;
 }

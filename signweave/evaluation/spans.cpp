@@ -37,7 +37,7 @@ Speeds speeds_of(const EvaluatedMotion& recording) {
   return speeds;
 }
 
-/// By speed, the fastest first; of two as fast, the earlier.
+/// Sorted by descending speed, then by time.
 std::vector<Peak> peaks_of(const Speeds& speeds) {
   std::vector<Peak> peaks;
   for (const Side side : kSides) {
@@ -54,7 +54,7 @@ std::vector<Peak> peaks_of(const Speeds& speeds) {
   return peaks;
 }
 
-/// Spans of one group in one recording, which share no frame.
+/// Non-overlapping spans of one group in one recording.
 class Picker {
  public:
   Picker(const EvaluatedMotion& recording, std::size_t index, SpanChoice& choice)
@@ -64,7 +64,7 @@ class Picker {
     group_ = group;
     taken_.clear();
   }
-  /// Takes a span unless another holds a frame of it, the motion ends too near or a defect spoils it.
+  /// Takes a span unless it overlaps another, is too near to the motion's ends or contains a defect.
   void take(FrameRange frames, std::int64_t context) {
     const std::int64_t count = recording_.motion.frame_count();
     if (frames.empty() || frames.begin < std::max<std::int64_t>(1, context) ||
@@ -94,7 +94,7 @@ class Picker {
   std::vector<FrameRange> taken_;
 };
 
-/// Of frames of one length about a peak in their middle.
+/// Takes spans of one length centred on peaks.
 void take_length(const Speeds& speeds, const std::vector<Peak>& peaks, std::int64_t length, Picker& picker) {
   for (const Peak& peak : peaks) {
     const FrameRange frames{peak.frame - length / 2, peak.frame - length / 2 + length};
@@ -106,8 +106,8 @@ void take_length(const Speeds& speeds, const std::vector<Peak>& peaks, std::int6
   }
 }
 
-/// The valley beside a peak, going by `step`; the peak itself where there is none, or something faster comes first.
-std::int64_t valley_beside(const std::vector<double>& speed, const Peak& peak, std::int64_t step) {
+/// The valley next to a peak in direction `step`; the peak itself if there is none, or a faster frame comes first.
+std::int64_t next_valley(const std::vector<double>& speed, const Peak& peak, std::int64_t step) {
   for (std::int64_t i = peak.frame + step; i >= 1 && i + 1 < static_cast<std::int64_t>(speed.size()); i += step) {
     if (speed[at(i)] > peak.speed) return peak.frame;
     const bool lowest = speed[at(i)] <= speed[at(i - 1)] && speed[at(i)] <= speed[at(i + 1)];
@@ -122,8 +122,8 @@ void take_natural(const EvaluatedMotion& recording, const Speeds& speeds, const 
   const std::int64_t longest = frames_in(kLongest, recording.motion.rate());
   for (const Peak& peak : peaks) {
     const std::vector<double>& speed = speeds[static_cast<std::size_t>(peak.side)];
-    const std::int64_t left = valley_beside(speed, peak, -1);
-    const std::int64_t right = valley_beside(speed, peak, 1);
+    const std::int64_t left = next_valley(speed, peak, -1);
+    const std::int64_t right = next_valley(speed, peak, 1);
     const FrameRange frames{left + 1, right};  // the valleys are the borders
     if (left == peak.frame || right == peak.frame) continue;
     if (frames.size() < shortest || frames.size() > longest) continue;
@@ -131,7 +131,7 @@ void take_natural(const EvaluatedMotion& recording, const Speeds& speeds, const 
   }
 }
 
-/// Annotated transitions; where none has phases, the gaps between signs.
+/// Takes annotated transitions; if no sign has phases, the gaps between signs.
 void take_annotated(const EvaluatedMotion& recording, Picker& picker) {
   const std::vector<AnnotatedTransition> transitions = transitions_in(recording.signs);
   const bool phases =
@@ -142,8 +142,8 @@ void take_annotated(const EvaluatedMotion& recording, Picker& picker) {
   }
 }
 
-/// How often the speed rises and falls: a peak is at least kLeastShare of the fastest, and between two of them it falls
-/// to kBetween of the lower.
+/// The number of speed peaks: a peak is at least kLeastShare of the fastest, and between two peaks the speed falls to
+/// kBetween of the lower one.
 std::size_t peaks_in(std::span<const double> speed) {
   constexpr double kLeastShare = 0.3;
   constexpr double kBetween = 0.75;

@@ -22,7 +22,7 @@ std::size_t group_named(const SpanChoice& choice, const std::string& name) {
   return static_cast<std::size_t>(std::find(choice.groups.begin(), choice.groups.end(), name) - choice.groups.begin());
 }
 
-TEST(Spans, OfOneGroupShareNoFrameAndAreAsLongAsTheySay) {
+TEST(Spans, OfOneGroupDoNotOverlapAndHaveTheirLength) {
   const std::vector<EvaluatedMotion> recordings = {lively("a", 0.1), lively("b", 2.0)};
   const SpanChoice choice = choose_spans(recordings);
   std::vector<std::size_t> counts(choice.groups.size());
@@ -47,11 +47,11 @@ TEST(Spans, OfOneGroupShareNoFrameAndAreAsLongAsTheySay) {
   EXPECT_EQ(counts[group_named(choice, "annotated")], 0u);
 }
 
-TEST(Spans, TheSpeedPeakLiesInside) {
+TEST(Spans, ThePeakOfSpeedIsInside) {
   const std::vector<EvaluatedMotion> recordings = {lively("a", 0.7)};
   const SpanChoice choice = choose_spans(recordings);
   for (const EvaluatedSpan& span : choice.spans) {
-    // Of one of the hands: no frame of the span or its borders is faster than the one in the middle.
+    // For one of the hands, no frame of the span or its borders is faster than the middle one.
     bool inside = false;
     for (const Side side : kSides) {
       const std::vector<double> speeds = speeds_of(recordings[0], side);
@@ -63,8 +63,8 @@ TEST(Spans, TheSpeedPeakLiesInside) {
   }
 }
 
-TEST(Spans, ASpanWithSomethingFasterInItThanItsMiddleIsNone) {
-  // A fast movement about frame 22, too near to the begin to have a long span of its own, and a slower one at frame 52.
+TEST(Spans, ASpanIsFastestInItsMiddle) {
+  // A fast movement around frame 22, too near to the begin for a long span, and a slower one at frame 52.
   const auto swing = [](double t) {
     return 0.5 * std::tanh(16 * (t - 22.0 / 60)) + 0.3 * std::tanh(16 * (t - 52.0 / 60));
   };
@@ -77,13 +77,13 @@ TEST(Spans, ASpanWithSomethingFasterInItThanItsMiddleIsNone) {
       about_the_second.push_back(span.frames);
     }
   }
-  // 170 to 735 ms; one of 1064 ms would hold the first movement.
+  // 170 to 735 ms; a span of 1064 ms would contain the first movement.
   EXPECT_THAT(about_the_second,
               testing::ElementsAre(FrameRange{47, 57}, FrameRange{44, 61}, FrameRange{37, 68}, FrameRange{30, 74}));
 }
 
-TEST(Spans, NaturalMovementsGoFromValleyToValley) {
-  // Forth and back for ever: the speed is least where it turns.
+TEST(Spans, NaturalMovementsExtendFromValleyToValley) {
+  // A periodic swing: the speed is least where it reverses.
   const auto swing = [](double t) { return 0.6 - 0.6 * std::cos(4 * t); };
   const std::vector<EvaluatedMotion> recordings = {recording_of("a", swinging(
                                                                          swing, [](double) { return 0.3; }, 600))};
@@ -103,7 +103,7 @@ TEST(Spans, NaturalMovementsGoFromValleyToValley) {
   EXPECT_LE(found, 12u);
 }
 
-TEST(Spans, LongOnesTellHowManyPeaksTheyHide) {
+TEST(Spans, LongSpansCountTheirPeaks) {
   const auto swing = [](double t) { return 0.6 - 0.6 * std::cos(4 * t); };
   const EvaluatedMotion recording = recording_of("a", swinging(
                                                           swing, [](double) { return 0.3; }, 600));
@@ -113,7 +113,7 @@ TEST(Spans, LongOnesTellHowManyPeaksTheyHide) {
   EXPECT_TRUE(span_at(recording, 0, {96, 188}, 0).is_long);
 }
 
-TEST(Spans, FramesThatADefectSpoilsAreInNoneAndTheirSpansAreCounted) {
+TEST(Spans, SpansWithDefectsAreLeftOutAndCounted) {
   std::vector<EvaluatedMotion> recordings = {lively("a", 0.7)};
   const std::size_t before = choose_spans(recordings).spans.size();
   EXPECT_EQ(choose_spans(recordings).left_out, 0u);
@@ -147,7 +147,7 @@ TEST(Spans, AnnotatedTransitionsAreThoseBetweenStrokes) {
   EXPECT_THAT(annotated, testing::ElementsAre(FrameRange{90, 108}, FrameRange{126, 144}));
 }
 
-TEST(Recordings, WhatCannotBeEvaluatedOnIsToldInOneLine) {
+TEST(Recordings, UnusableRecordingsAreReportedInOneLine) {
   const auto message = [](const auto& make) -> std::string {
     try {
       make();
@@ -195,18 +195,18 @@ TEST_F(SpanTable, IsReadWithOrWithoutHeadingGroupsAndQuotes) {
   EXPECT_EQ(choice.spans[0].frames, (FrameRange{20, 30}));
   EXPECT_EQ(choice.spans[1].recording, 1u);
   EXPECT_EQ(choice.spans[1].frames, (FrameRange{30, 70}));
-  recordings[0].name = "a";  // as a database has it
+  recordings[0].name = "a";  // as in a database
   EXPECT_EQ(read("a.bvh,20,10\n").spans[0].recording, 0u);
   EXPECT_THAT(read("a.bvh,20,10\n").groups, testing::ElementsAre("table"));
 }
 
-TEST_F(SpanTable, EveryFaultHasItsLine) {
+TEST_F(SpanTable, ErrorsNameTheLine) {
   EXPECT_EQ(error_of("a,20,10\nb,20,10\n"), ":2: 'b' is the name of 2 recordings; give its folder too");
-  EXPECT_EQ(error_of("aa.bvh,20,10\n"), ":1: no recording 'aa.bvh' is evaluated on; did you mean a.bvh or b.bvh?");
+  EXPECT_EQ(error_of("aa.bvh,20,10\n"), ":1: no evaluated recording is named 'aa.bvh'; did you mean a.bvh or b.bvh?");
   EXPECT_EQ(error_of("file,first,frames\na,20\n"),
             ":2: 2 columns; a row has file, first frame, frames, and may have a group");
-  EXPECT_EQ(error_of("a,x,10\n"), ":1: the first frame 'x' is no whole number");
-  EXPECT_EQ(error_of("a,20,1.5\n"), ":1: the number of frames '1.5' is no whole number");
+  EXPECT_EQ(error_of("a,x,10\n"), ":1: the first frame 'x' is not a whole number");
+  EXPECT_EQ(error_of("a,20,1.5\n"), ":1: the number of frames '1.5' is not a whole number");
   const std::string outside = " leave no frame on both sides of a (frames 0 to 199); both its neighbours must be there";
   EXPECT_EQ(error_of("a,0,10\n"), ":1: 10 frames from frame 0" + outside);
   EXPECT_EQ(error_of("a,190,10\n"), ":1: 10 frames from frame 190" + outside);

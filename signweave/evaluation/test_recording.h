@@ -1,6 +1,6 @@
 #pragma once
 
-// For tests: a body whose arms swing as a function says.
+// For tests: a body whose arms swing by given functions.
 
 #include <cmath>
 #include <functional>
@@ -24,10 +24,10 @@ inline RigNaming whole_naming() {
   return naming;
 }
 
-/// Radians that an arm is turned about the shoulder at some seconds.
+/// Rotation of an arm about the shoulder in radians, by time.
 using Swing = std::function<double(double seconds)>;
 
-/// Arms hang and swing to the front; fingers bend half as far.
+/// Arms hang and swing forwards; fingers bend half as far.
 inline Motion swinging(const Swing& left, const Swing& right, std::int64_t frames, FrameRate rate = {60, 1}) {
   const Motion body = rig_body(whole_naming(), 1);
   Motion motion(body.shared_skeleton(), rate);
@@ -57,7 +57,7 @@ inline EvaluatedMotion recording_of(std::string name, Motion motion, std::vector
   return evaluated_motion(std::move(name), std::move(motion), rig, std::move(signs), clock);
 }
 
-/// Swings of several sizes and speeds that never repeat, different for each `seed`.
+/// Swings of several amplitudes and speeds that never repeat, different for each `seed`.
 inline EvaluatedMotion lively(std::string name, double seed, std::int64_t frames = 900) {
   const auto swing = [](double shift) {
     return [shift](double t) {

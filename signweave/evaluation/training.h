@@ -7,10 +7,10 @@
 #include "signweave/evaluation/spans.h"
 #include "signweave/transition/model.h"
 
-/// Inside this module only.
+/// Internal to this module.
 namespace signweave {
 
-/// What is learned from every span; by fold, so that each can be left out.
+/// Trains on every span, by fold, so that each fold can be left out.
 TransitionTrainer train(std::span<const EvaluatedMotion> recordings, std::span<const EvaluatedSpan> spans,
                         const Folds& folds);
 

@@ -8,7 +8,7 @@ namespace {
 
 using Eigen::Vector3f;
 
-/// The largest of some differences of neighbouring points, whose weights are given, begun at points [from, to].
+/// The largest finite difference with the given weights, over start points [from, to].
 template <std::size_t kSize>
 double largest_change(std::span<const Vector3f> path, std::int64_t from, std::int64_t to,
                       const std::array<float, kSize>& weights) {
@@ -17,7 +17,7 @@ double largest_change(std::span<const Vector3f> path, std::int64_t from, std::in
        begin <= to && begin + static_cast<std::int64_t>(kSize) <= static_cast<std::int64_t>(path.size()); ++begin) {
     const auto first = static_cast<std::size_t>(begin);
     Vector3f sum = Vector3f::Zero();
-    // Relative to a point: far from the origin nothing is lost.
+    // Relative to a point, to avoid cancellation far from the origin.
     for (std::size_t i = 0; i < kSize; ++i) sum += weights[i] * (path[first + i] - path[first]);
     most = std::max(most, static_cast<double>(sum.norm()));
   }
@@ -42,7 +42,7 @@ WristKinematics WristMeter::measure(std::span<const Vector3f> path, std::int64_t
   const std::int64_t right = left + count + 1;
   constexpr std::array<float, 3> kSecond = {1, -2, 1};
   constexpr std::array<float, 4> kThird = {-1, 3, -3, 1};
-  // Every difference with captured and made points on both sides of a seam, which lies beside a border.
+  // All differences that span a seam between captured and generated points, at either border.
   result.velocity_jump =
       largest_change(path, left - 1, left, kSecond) + largest_change(path, right - 2, right - 1, kSecond);
   result.acceleration_jump =

@@ -8,7 +8,7 @@
 namespace signweave {
 namespace {
 
-constexpr float kNone = -1e6f;  ///< the radius of a capsule that is not there, and so apart from everything
+constexpr float kNone = -1e6f;  ///< radius of an unused slot, which makes its clearance large
 
 }  // namespace
 
@@ -53,7 +53,7 @@ SIGNWEAVE_VECTOR_CLONES void clearances(const Capsule& one, const CapsuleRow& ro
       const float uv = ux * vx + uy * vy + uz * vz;
       const float uw = ux * wx + uy * wy + uz * wz;
       const float vw = vx * wx + vy * wy + vz * wz;
-      // Where both lines are nearest, then held within both capsules, one after the other.
+      // The closest points of the lines, then clamped to both capsules, one after the other.
       const float across = uu * vv - uv * uv;
       float s = across > 1e-6f * uu * vv ? (uv * vw - uw * vv) / across : 0.0f;
       s = s > 0 ? s : 0.0f;

@@ -14,7 +14,7 @@ Vector3f point() {
   return {x, y, z};
 }
 
-/// Some are balls, and some lie parallel to the one before.
+/// Some are spheres, and some are parallel to the previous one.
 Capsule capsule(const Capsule& before) {
   const int kind = *rc::gen::inRange(0, 5);
   const Vector3f from = point();

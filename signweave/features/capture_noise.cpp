@@ -9,20 +9,20 @@
 namespace signweave {
 namespace {
 
-/// What one window says of one joint: squares summed over the axes.
+/// The fit of one window of one joint: squares summed over the axes.
 struct WindowFit {
-  float moved = 0;  ///< of the quadratic about its mean
-  float cubic = 0;  ///< of the cubic term
-  float rest = 0;   ///< of what the frames are off from the cubic
+  float moved = 0;  ///< sum of squares of the linear and quadratic terms
+  float cubic = 0;  ///< square of the cubic term
+  float rest = 0;   ///< residual sum of squares of the cubic fit
 };
 
-/// True where one square is no more than three times what noise alone would make of it beside another, of so many
-/// numbers each.
-bool is_noise(float square, double numbers, float beside, double others) noexcept {
-  return static_cast<double>(square) / numbers <= 3 * static_cast<double>(beside) / others;
+/// Returns whether one sum of squares is at most three times what noise alone would produce, judged by another; each
+/// has the given number of degrees of freedom.
+bool is_noise(float square, double numbers, float reference, double reference_numbers) noexcept {
+  return static_cast<double>(square) / numbers <= 3 * static_cast<double>(reference) / reference_numbers;
 }
 
-/// The noise that windows of so many frames tell. Changes their order.
+/// Returns the noise estimated from windows of `frames` frames. Reorders the windows.
 float noise_of(std::vector<WindowFit>& windows, std::size_t frames) {
   constexpr std::ptrdiff_t kLeast = 3;
   const double freedom = 3.0 * static_cast<double>(frames - ShortFit::kTerms);
@@ -35,7 +35,7 @@ float noise_of(std::vector<WindowFit>& windows, std::size_t frames) {
   if (end - begin < kLeast) return 0;
   const auto quarter = begin + (end - begin) / 4;
   std::nth_element(begin, quarter, end, [](const WindowFit& a, const WindowFit& b) { return a.rest < b.rest; });
-  // A quarter of what χ² with so many degrees of freedom gives is less than this (Wilson and Hilferty 1931).
+  // The lower quartile of χ² with this number of degrees of freedom (Wilson and Hilferty 1931).
   const double part = 2 / (9 * freedom);
   const double usual = freedom * std::pow(1 - part - 0.6745 * std::sqrt(part), 3);
   return static_cast<float>(std::sqrt(static_cast<double>(quarter->rest) / usual));
@@ -75,7 +75,7 @@ CaptureNoise capture_noise(const Motion& motion) {
     noise.rotations[joint] = measure([&](std::int64_t first, std::int64_t frame) -> Eigen::Vector3f {
       const Eigen::Quaternionf turn =
           motion.pose(first + length / 2).rotations[joint].conjugate() * motion.pose(frame).rotations[joint];
-      return turn.vec() * (turn.w() < 0 ? -2.0f : 2.0f);  // small turns: the vector's sine is its angle
+      return turn.vec() * (turn.w() < 0 ? -2.0f : 2.0f);  // small angles: twice the vector part
     });
   }
   for (std::size_t at = 0; at < moved; ++at) {

@@ -6,22 +6,23 @@
 
 namespace signweave {
 
-/// How much a capture shakes where nothing moves: the standard deviation of one frame about the smooth movement, on
-/// each axis. All of it is 0 where there are too few frames to tell.
+/// The noise of a capture: the standard deviation of one frame about the smooth movement, per axis. All values are 0 if
+/// there are too few frames to estimate it.
 struct CaptureNoise {
   std::vector<float> rotations;     ///< [joint] radians
   std::vector<float> translations;  ///< [translated joint] metres
   friend bool operator==(const CaptureNoise&, const CaptureNoise&) = default;
 };
 
-/// At most kMostWindows windows of kNoiseWindow, evenly from all, are fitted by a cubic. A joint's still frames are the
-/// windows in which neither the fit's movement nor its cubic term is more than noise would make of it; where there are
-/// none, and at least half of all windows have no such cubic term, those serve: at such a rate movement shows no more
-/// than a quadratic. The noise is taken from the quarter of them that are off least from their fits, so that movement
-/// which no fit follows is not taken for noise. Noise that the capture's own filter has spread over several frames is
-/// underestimated. (ours; docs/synthesis.md)
+/// Estimates the noise of every joint (ours; docs/synthesis.md). A cubic is fitted to at most kMostWindows windows of
+/// kNoiseWindow, evenly distributed. The windows in which a joint is still are those in which neither the fit's
+/// movement nor its cubic term exceeds what noise would produce. If there are none, and at least half of all windows
+/// have no such cubic term, those windows are used: at such a frame rate, movement is at most quadratic within a
+/// window. The noise is taken from the quarter of these windows with the smallest residuals, so that movement that no
+/// fit follows is not counted as noise. Noise that the capture's own filter has spread over several frames is
+/// underestimated.
 CaptureNoise capture_noise(const Motion& motion);
-inline constexpr double kNoiseWindow = 0.15;  ///< seconds; six frames at least
+inline constexpr double kNoiseWindow = 0.15;  ///< seconds; at least six frames
 inline constexpr std::int64_t kMostWindows = 400;
 
 }  // namespace signweave

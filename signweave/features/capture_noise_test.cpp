@@ -15,7 +15,7 @@ std::shared_ptr<const Skeleton> three_joints() {
       std::vector<Tip>{});
 }
 
-/// Movements of 0.8 s with rests between them, or without any, that shake by so much.
+/// Movements of 0.8 s, with or without rests between them, with the given noise.
 Motion captured(FrameRate rate, float radians, float metres, bool rests, std::uint32_t seed = 1) {
   const auto frames = static_cast<std::int64_t>(20 * rate.hertz());
   Motion motion(three_joints(), rate, frames);
@@ -54,7 +54,7 @@ TEST(CaptureNoise, IsMeasuredInStillFramesAtEveryRate) {
   }
 }
 
-TEST(CaptureNoise, OfACleanCaptureIsNothing) {
+TEST(CaptureNoise, OfACleanCaptureIsZero) {
   for (const FrameRate rate : kRates) {
     for (const bool rests : {true, false}) {
       SCOPED_TRACE(testing::Message() << rate.hertz() << " frames a second" << (rests ? ", with rests" : ""));
@@ -65,12 +65,12 @@ TEST(CaptureNoise, OfACleanCaptureIsNothing) {
   }
 }
 
-TEST(CaptureNoise, IsSeenWithoutAnyRestWhereItHidesWhatNoQuadraticFollows) {
+TEST(CaptureNoise, IsMeasuredWithoutRestsIfItExceedsNonQuadraticMovement) {
   const CaptureNoise noise = capture_noise(captured({60, 1}, 0.01f, 0, false));
   for (const float one : noise.rotations) EXPECT_NEAR(one, 0.01f, 0.003f);
 }
 
-TEST(CaptureNoise, OfTooFewFramesOrOfNoNumbersIsNothing) {
+TEST(CaptureNoise, OfTooFewFramesOrNonFiniteValuesIsZero) {
   Motion short_one(three_joints(), {60, 1}, 10);
   for (const float one : capture_noise(short_one).rotations) EXPECT_EQ(one, 0);
   EXPECT_EQ(capture_noise(Motion(three_joints(), {60, 1}, 0)).rotations.size(), 3u);

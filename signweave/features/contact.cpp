@@ -9,22 +9,22 @@ namespace {
 using Eigen::Vector3f;
 
 // Shoulder widths.
-constexpr float kTorsoRadius = 0.33f;  // half as deep as a trunk
-constexpr float kTorsoAside = 0.17f;   // of each bar's line from the middle
-// Shares of the head's height from the chin to the top.
-constexpr float kHeadRadius = 0.36f;   // between half its breadth and half its depth
-constexpr float kHeadForward = 0.10f;  // the skull's middle before the line from its joint to its top
-// Shares of the arm's length.
+constexpr float kTorsoRadius = 0.33f;  // half the depth of a trunk
+constexpr float kTorsoAside = 0.17f;   // offset of each capsule's axis from the centre
+// Fractions of the head's height from chin to top.
+constexpr float kHeadRadius = 0.36f;   // between half its width and half its depth
+constexpr float kHeadForward = 0.10f;  // distance of the skull's centre in front of the line from its joint to its top
+// Fractions of the arm's length.
 constexpr float kPalmRadius = 0.030f;
 constexpr float kFingerRadius = 0.017f;
 constexpr float kForearmRadius = 0.060f;
 constexpr float kHandLength = 0.32f;  // wrist to finger tips: 0.108 of the stature (Drillis and Contini 1966)
 
-/// Two stretches of lines where they are nearest.
+/// The closest points of two line segments.
 struct Nearest {
-  Vector3f way = Vector3f::Zero();  ///< from the second to the first
-  float s = 0;                      ///< along the first, 0 to 1
-  float t = 0;                      ///< along the second
+  Vector3f separation = Vector3f::Zero();  ///< vector from the second to the first
+  float s = 0;                             ///< position on the first, 0 to 1
+  float t = 0;                             ///< position on the second, 0 to 1
 };
 Nearest between(const Vector3f& a, const Vector3f& b, const Vector3f& c, const Vector3f& d) {
   const Vector3f u = b - a;
@@ -57,13 +57,13 @@ Nearest between(const Vector3f& a, const Vector3f& b, const Vector3f& c, const V
 }  // namespace
 
 float clearance(const Capsule& a, const Capsule& b) noexcept {
-  return between(a.from, a.to, b.from, b.to).way.norm() - a.radius - b.radius;
+  return between(a.from, a.to, b.from, b.to).separation.norm() - a.radius - b.radius;
 }
 
 Approach approach(const Capsule& a, const Capsule& b) noexcept {
   const Nearest nearest = between(a.from, a.to, b.from, b.to);
-  const float distance = nearest.way.norm();
-  return {distance - a.radius - b.radius, distance > 1e-6f ? Vector3f(nearest.way / distance) : Vector3f::Zero(),
+  const float distance = nearest.separation.norm();
+  return {distance - a.radius - b.radius, distance > 1e-6f ? Vector3f(nearest.separation / distance) : Vector3f::Zero(),
           nearest.s, nearest.t};
 }
 
@@ -75,7 +75,7 @@ HandShell shell_of(const HandPoints& hand, const std::optional<Vector3f>& elbow,
   };
   for (const HandPoints::OneFinger& finger : hand.fingers) {
     if (finger.count == 0) continue;
-    // A finger in two bars: one to its middle joint, one from there to its end.
+    // A finger is two capsules: one to its middle joint, one from there to its end.
     const std::size_t middle = std::min<std::size_t>(1, finger.count - 1);
     add(hand.wrist, finger.points[0], kPalmRadius * arm);
     add(finger.points[0], finger.points[middle], kFingerRadius * arm);
@@ -105,7 +105,7 @@ BodyShell shell_of(const SignerBody& body, const RigMap& rig, const SignerSpace&
   const float width = body.shoulder_width;
   BodyShell shell;
   const float radius = kTorsoRadius * width;
-  // The trunk's line leans with it: from between the shoulders to between the hips.
+  // The trunk's axis leans with the body: from between the shoulders to between the hips.
   Vector3f hips = space.to_model({0, body.heights[static_cast<std::size_t>(Height::waist)], 0});
   if (rig.has(Part::pelvis)) hips = position_of(rig[Part::pelvis], pose);
   const Vector3f along = (hips - space.origin).normalized();

@@ -16,7 +16,7 @@ Vector3f arbitrary_point() {
   return {x, y, z};
 }
 
-RC_GTEST_PROP(Clearance, IsThatOfTheNearestOfManyPoints, ()) {
+RC_GTEST_PROP(Clearance, MatchesTheNearestOfManyPoints, ()) {
   const Capsule a{arbitrary_point(), arbitrary_point(), 0.1f};
   const Capsule b{arbitrary_point(), arbitrary_point(), 0.2f};
   float nearest = 1e9f;
@@ -32,7 +32,7 @@ RC_GTEST_PROP(Clearance, IsThatOfTheNearestOfManyPoints, ()) {
   RC_ASSERT(std::abs(clearance(b, a) - clearance(a, b)) < 1e-5f);
 }
 
-TEST(Clearance, TakesPointsAndParallelLines) {
+TEST(Clearance, HandlesPointsAndParallelLines) {
   const Capsule point{{0, 0, 0}, {0, 0, 0}, 0.1f};
   const Capsule line{{-1, 1, 0}, {1, 1, 0}, 0.1f};
   EXPECT_FLOAT_EQ(clearance(point, point), -0.2f);
@@ -49,7 +49,7 @@ struct Person {
   SignerBody body = *signer_body(Motion(skeleton, {60, 1}, 1), rig);
 
   BodyShell shell() const { return shell_of(body, rig, signer_space(body, rig, pose), pose); }
-  /// A hand that is one point.
+  /// A hand that consists of one point.
   HandShell fingertip(const Vector3f& at) const {
     HandPoints hand{.wrist = at, .fingers = {}};
     return shell_of(hand, std::nullopt, body);
@@ -62,7 +62,7 @@ struct Person {
   }
 };
 
-TEST(Contact, IsWhereAPersonsHeadAndTrunkAre) {
+TEST(Contact, CoversHeadAndTrunk) {
   const Person person;
   EXPECT_TRUE(person.touches_head({0, 1.72f, 0}));      // the top
   EXPECT_TRUE(person.touches_head({0, 1.55f, 0.11f}));  // the mouth
@@ -75,10 +75,10 @@ TEST(Contact, IsWhereAPersonsHeadAndTrunkAre) {
   EXPECT_FALSE(person.touches_torso({0, 1.25f, 0.22f}));
   EXPECT_FALSE(person.touches_torso({0.30f, 1.10f, 0}));
   EXPECT_FALSE(person.touches_torso({0, 1.55f, 0}));
-  EXPECT_FALSE(person.touches_torso({0.26f, 0.80f, 0}));  // beside the thigh
+  EXPECT_FALSE(person.touches_torso({0.26f, 0.80f, 0}));  // next to the thigh
 }
 
-TEST(Contact, OfHandsIsBetweenTheirBars) {
+TEST(Contact, OfHandsUsesTheirCapsules) {
   const Person person;
   HandPoints left, right;
   HandPlaces(person.rig, Side::left).read(person.pose, left);
@@ -96,14 +96,14 @@ TEST(Contact, OfHandsIsBetweenTheirBars) {
   };
   const float apart = left.wrist.x() - right.wrist.x();
   EXPECT_FALSE(touch({0, 0, 0}));
-  // The tips of the middle fingers reach 0.174 from the wrists: tip to tip, and a hand's breadth apart.
+  // The tips of the middle fingers are 0.174 from the wrists: tip to tip, and a hand's width apart.
   EXPECT_TRUE(touch({apart + 2 * 0.174f, 0, 0}));
   EXPECT_FALSE(touch({apart + 2 * 0.174f + 0.06f, 0, 0}));
   EXPECT_TRUE(touch({apart, 0.02f, 0}));  // palm on back
   EXPECT_FALSE(touch({apart, 0.10f, 0}));
 }
 
-TEST(Contact, WithoutFingersTheHandGoesOnFromTheForearm) {
+TEST(Contact, WithoutFingersTheHandContinuesTheForearm) {
   const Person person;
   const HandPoints hand{.wrist = {0, 1.25f, 0.30f}, .fingers = {}};
   const BodyShell shell = person.shell();
@@ -111,7 +111,7 @@ TEST(Contact, WithoutFingersTheHandGoesOnFromTheForearm) {
   EXPECT_FALSE(touches(shell_of(hand, Vector3f(0, 1.25f, 0.05f), person.body), shell.torso[0], person.body));
 }
 
-TEST(Contact, HasNoHeadWhereTheRigHasNone) {
+TEST(Contact, HasNoHeadIfTheRigHasNone) {
   Person person;
   person.rig[Part::head] = {};
   EXPECT_FALSE(person.shell().head);

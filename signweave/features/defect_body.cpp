@@ -13,17 +13,17 @@ namespace {
 
 using Eigen::Vector3f;
 
-// All (ours).
-constexpr float kLevel = 0.30f;     // sine of 17.5°: how far an arm may rise or fall
-constexpr float kSideways = 0.94f;  // cosine of 20°: from the line of the shoulders
-constexpr float kStraight = 0.94f;  // cosine of 20°: at the elbow
-constexpr double kHeld = 0.5;       // seconds that a T-pose in the middle of a recording must be held
-constexpr double kStill = 0.15;     // m/s at most meanwhile: arms also pass through the pose
-// Adults: 1.2 m and 2.3 m are well beyond all but a few.
+// All values are ours.
+constexpr float kLevel = 0.30f;     // sine of 17.5°: maximum elevation of an arm, up or down
+constexpr float kSideways = 0.94f;  // cosine of 20°: maximum angle to the shoulder line
+constexpr float kStraight = 0.94f;  // cosine of 20°: maximum bend of the elbow
+constexpr double kHeld = 0.5;       // minimum duration of a T-pose in the middle of a recording, seconds
+constexpr double kStill = 0.15;     // maximum wrist speed meanwhile, m/s: arms also move through the pose
+// Adults: nearly all are well within 1.2 m and 2.3 m.
 constexpr double kShortest = 1.2;
 constexpr double kTallest = 2.3;
-// From the head's joint to the crown, of the bones below: where nothing says it, and at most. An eye or a camera may
-// hang far off the head.
+// Distance from the head's joint to the crown, as a fraction of the bones below: the default, and the maximum. An eye
+// or a camera may be attached far from the head.
 constexpr double kCrown = 0.10;
 constexpr double kMostCrown = 0.25;
 constexpr std::int64_t kFramesMeasured = 50;
@@ -37,9 +37,9 @@ bool in_t_pose(const RigMap& rig, const ModelPose& model) {
   for (int side = 0; side < 2; ++side) {
     shoulders[static_cast<std::size_t>(side)] = position_of(rig[of_side(side, Part::left_upper_arm)], model);
   }
-  Vector3f across = shoulders[0] - shoulders[1];  // to the left
+  Vector3f across = shoulders[0] - shoulders[1];  // points to the left
   across.y() = 0;
-  if (!(across.norm() >= 1e-4f)) return false;  // so put that what is no number, from numbers too large, is no pose
+  if (!(across.norm() >= 1e-4f)) return false;  // written so that NaN, from very large values, is not a pose
   across.normalize();
   for (int side = 0; side < 2; ++side) {
     const Vector3f shoulder = shoulders[static_cast<std::size_t>(side)];
@@ -65,42 +65,43 @@ TPoseWatch::TPoseWatch(const Motion& motion, const RigMap& rig) : motion_(motion
 void TPoseWatch::see(std::int64_t frame, const ModelPose& model) {
   if (first_ < 0) first_ = frame;
   if (!in_t_pose(rig_, model)) {
-    end_stretch(false);
+    end_pose(false);
     return;
   }
   const std::array<Vector3f, 2> wrists = {position_of(rig_[Part::left_hand], model),
                                           position_of(rig_[Part::right_hand], model)};
   if (since_ < 0) {
     since_ = frame;
-    way_ = 0;
+    travel_ = 0;
   } else {
-    for (std::size_t side = 0; side < 2; ++side) way_ += static_cast<double>((wrists[side] - wrists_[side]).norm());
+    for (std::size_t side = 0; side < 2; ++side) travel_ += static_cast<double>((wrists[side] - wrists_[side]).norm());
   }
   until_ = frame + 1;
   wrists_ = wrists;
 }
 
-void TPoseWatch::end_stretch(bool at_end) {
+void TPoseWatch::end_pose(bool at_end) {
   if (since_ < 0) return;
   const FrameRange frames{since_, until_};
   since_ = -1;
   const double seconds = static_cast<double>(frames.size()) / motion_.rate().hertz();
   const bool at_start = frames.begin == first_;
-  if (!at_start && !at_end && (seconds < kHeld || way_ / 2 / seconds > kStill)) return;
-  found_.push_back({.kind = DefectKind::t_pose,
-                    .frames = frames,
-                    .value = static_cast<float>(seconds),
-                    .text = at_start && at_end
-                                ? "every frame is a T-pose: there is no signing in it"
-                                : fmt::format("both arms straight out sideways{}: calibration, no signing; leave these "
-                                              "frames out",
-                                              at_start ? " at the start"
-                                              : at_end ? " at the end"
-                                                       : "")});
+  if (!at_start && !at_end && (seconds < kHeld || travel_ / 2 / seconds > kStill)) return;
+  found_.push_back(
+      {.kind = DefectKind::t_pose,
+       .frames = frames,
+       .value = static_cast<float>(seconds),
+       .text = at_start && at_end
+                   ? "every frame is a T-pose: the motion contains no signing"
+                   : fmt::format("both arms stretched out sideways{}: calibration, not signing; leave these "
+                                 "frames out",
+                                 at_start ? " at the start"
+                                 : at_end ? " at the end"
+                                          : "")});
 }
 
 std::vector<Defect> TPoseWatch::found() {
-  end_stretch(true);
+  end_pose(true);
   return found_;
 }
 
@@ -114,8 +115,8 @@ bool has_permuted_root(const Motion& motion) {
   if (degrees < 0.01 || offset.norm() < 1e-6f) return false;
   if (std::abs(turn.axis().dot(offset.normalized())) < 0.999f) return false;
   const double per_metre = degrees / static_cast<double>(offset.norm());
-  if (per_metre < 0.9 || per_metre > 1100) return false;   // file units a metre: m to mm
-  bool shifts = motion.pose(0).translations[0] != offset;  // what stands there is no place
+  if (per_metre < 0.9 || per_metre > 1100) return false;   // file units per metre, from m to mm
+  bool shifts = motion.pose(0).translations[0] != offset;  // the translation column does not hold a position
   for (std::int64_t frame = 1; frame < motion.frame_count(); ++frame) {
     if (motion.pose(frame).rotations[0].coeffs() != first.coeffs()) return false;
     shifts = shifts || motion.pose(frame).translations[0] != motion.pose(0).translations[0];
@@ -125,7 +126,7 @@ bool has_permuted_root(const Motion& motion) {
 
 namespace {
 
-/// The way along the bones from a foot to the head, metres, in the mean of some frames.
+/// Returns the length of the bones from a foot to the head, metres, averaged over some frames.
 double bones_between(const Motion& motion, JointIndex foot, JointIndex head) {
   const Skeleton& skeleton = motion.skeleton();
   const std::int64_t step = std::max<std::int64_t>(1, motion.frame_count() / kFramesMeasured);
@@ -148,7 +149,7 @@ double bones_between(const Motion& motion, JointIndex foot, JointIndex head) {
   return length;
 }
 
-/// From the head's joint to the top of the head, metres; none where the rig does not say.
+/// Returns the distance from the head's joint to the top of the head, metres; nullopt if the rig does not define it.
 std::optional<double> crown_of(const Motion& motion, const RigMap& rig) {
   const JointIndex head = rig[Part::head].joint;
   if (rig.has(Part::head_top)) {
@@ -179,7 +180,7 @@ std::vector<Defect> odd_scale(const Motion& motion, const RigMap& rig) {
   if (!std::isfinite(stature) || (stature >= kShortest && stature <= kTallest)) return {};
   Defect defect{.kind = DefectKind::scale, .value = static_cast<float>(stature)};
   defect.text = fmt::format(
-      "the body is {:.3g} m tall, as its bones go from foot to head: read the file with another "
+      "the body is {:.3g} m tall, measured along the bones from foot to head: read the file with another "
       "unit",
       stature);
   return {defect};

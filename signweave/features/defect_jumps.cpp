@@ -12,25 +12,26 @@
 namespace signweave::defect {
 namespace {
 
-// What people reach. A step counts as a jump where it is faster than this *and* so much faster than the steps beside
-// it: athletes' limbs come near these speeds, but they take many frames to speed up.
+// Human limits. A step counts as a jump if it is faster than this *and* exceeds the adjacent steps by this much:
+// athletes' limbs come near these speeds, but they take many frames to accelerate.
 /// Elbow of a professional pitcher, 2,320°/s (Fleisig et al. 1999, J. Biomechanics 32).
 constexpr double kFastestLimb = 40;  // rad/s
-/// A finger's snap, 7,800°/s (Acharya et al. 2021, J. R. Soc. Interface 18): nothing of a body turns faster.
+/// A finger snap, 7,800°/s (Acharya et al. 2021, J. R. Soc. Interface 18): no part of a body rotates faster.
 constexpr double kFastestTurn = 136;  // rad/s
-/// To turn so much for one frame alone takes this much to speed up and again to slow down. (ours)
+/// The acceleration needed to rotate this fast for a single frame, and the deceleration after it. (ours)
 constexpr double kHardestTurn = 2'500;  // rad/s²
-/// The hand of an Olympic boxer has 9.1 ± 2.1 m/s (Walilko, Viano, Bir 2005, Br. J. Sports Med. 39), a sprinter at
+/// The hand of an Olympic boxer reaches 9.1 ± 2.1 m/s (Walilko, Viano, Bir 2005, Br. J. Sports Med. 39), a sprinter at
 /// best 12.3 (Graubner and Nixdorf 2011, New Studies in Athletics 26).
 constexpr double kFastestPoint = 12.3;  // m/s
-/// A body's middle that starts and stops within a frame: 50 times gravity. (ours)
+/// The acceleration of a body that starts and stops within a frame: 50 times gravity. (ours)
 constexpr double kHardestShift = 500;    // m/s²
 constexpr float kLeastShift = 0.03f;     // metres
-constexpr float kLeastTurn = 0.1f;       // radians: less is noise at any rate
-constexpr std::int64_t kTogether = 3;    // frames: jumps so near are one
-constexpr std::size_t kWholeBody = 6;    // joints that jump at once
-constexpr double kWholeBodyShare = 0.2;  // of all, likewise
-// Points that the levers of one frame may take, for each joint and tip. A body takes as many as its joints lie deep.
+constexpr float kLeastTurn = 0.1f;       // radians: less is noise at any frame rate
+constexpr std::int64_t kTogether = 3;    // frames: jumps this close are merged
+constexpr std::size_t kWholeBody = 6;    // minimum number of joints that jump at the same time
+constexpr double kWholeBodyShare = 0.2;  // the same as a fraction of all joints
+// Maximum number of points visited for the levers of one frame, per joint and tip. A body needs as many as its joints
+// are deep.
 constexpr std::size_t kMostLooks = 64;
 
 float angle_between(const Eigen::Quaternionf& a, const Eigen::Quaternionf& b) noexcept {
@@ -38,7 +39,7 @@ float angle_between(const Eigen::Quaternionf& a, const Eigen::Quaternionf& b) no
   return 2 * std::acos(cosine);
 }
 
-/// How far the farthest point of what a joint carries is at most: along the bones.
+/// Returns an upper bound of the distance to the farthest point that each joint carries: measured along the bones.
 std::vector<float> reaches(const Skeleton& skeleton) {
   std::vector<float> reach(skeleton.joint_count(), 0.0f);
   for (const Tip& tip : skeleton.tips()) {
@@ -95,7 +96,7 @@ void JumpWatch::see(std::int64_t frame, bool whole) {
       most = std::max(most, steps.shifts[i]);
     }
     steps.repeated = most == 0;
-  } else {  // as at the ends of the motion
+  } else {  // treated like the ends of the motion
     std::fill(steps.turns.begin(), steps.turns.end(), 0.0f);
     std::fill(steps.shifts.begin(), steps.shifts.end(), 0.0f);
     steps.repeated = false;
@@ -103,25 +104,26 @@ void JumpWatch::see(std::int64_t frame, bool whole) {
   if (frame >= 3) judge(frame - 2);
 }
 
-/// The larger of the steps on both sides. Of a step there and back again the other half is passed over.
+/// Returns the larger of the two adjacent steps. For a step away and back, the other half is skipped.
 template <typename Distance>
 float JumpWatch::around(std::int64_t frame, std::vector<float> Steps::*what, std::size_t index,
                         const Distance& distance) const {
-  constexpr float kBack = 0.3f;  // of the step: that near is back
+  constexpr float kBack = 0.3f;  // fraction of the step: closer than this counts as back
   const auto step = [&](std::int64_t into_frame) {
     return into_frame >= 1 && into_frame < seen_ ? (into(into_frame).*what)[index] : 0.0f;
   };
   const float own = step(frame);
-  const auto beside = [&](std::int64_t next, std::int64_t beyond, std::int64_t a, std::int64_t b) {
+  const auto adjacent = [&](std::int64_t next, std::int64_t beyond, std::int64_t a, std::int64_t b) {
     const bool inside = a >= 0 && b < seen_;
     return inside && step(next) > 0.5f * own && distance(a, b) < kBack * own ? step(beyond) : step(next);
   };
-  return std::max(beside(frame - 1, frame - 2, frame - 2, frame), beside(frame + 1, frame + 2, frame - 1, frame + 1));
+  return std::max(adjacent(frame - 1, frame - 2, frame - 2, frame),
+                  adjacent(frame + 1, frame + 2, frame - 1, frame + 1));
 }
 
-/// Whether a joint or tip that a joint carries is farther than `lever`, metres, from the axis of its turn. Of a
-/// skeleton that is no body's, with chains of thousands of joints, the last ones of a frame are not looked at: no jump
-/// then.
+/// Returns whether any joint or tip carried by a joint is farther than `lever`, metres, from the axis of its rotation.
+/// In degenerate skeletons with chains of thousands of joints, the last joints of a frame are not visited and count as
+/// no jump.
 bool JumpWatch::reaches_beyond(std::int64_t frame, JointIndex joint, double lever) {
   if (model_of_ != frame) {
     to_model_space(motion_.skeleton(), motion_.pose(frame), model_);
@@ -152,7 +154,7 @@ bool JumpWatch::reaches_beyond(std::int64_t frame, JointIndex joint, double leve
 void JumpWatch::judge(std::int64_t frame) {
   const Steps& steps = into(frame);
   now_.clear();
-  // Where a frame was written twice for want of a new one, the next step is that of both.
+  // If a frame was repeated because no new one was available, the next step spans both.
   double hertz = hertz_;
   for (std::int64_t before = frame - 1; before >= std::max<std::int64_t>(1, frame - 2) && into(before).repeated;
        --before) {
@@ -162,35 +164,35 @@ void JumpWatch::judge(std::int64_t frame) {
     const float step = steps.turns[i];
     const double speed = static_cast<double>(step) * hertz;
     if (step < kLeastTurn || (speed < kFastestLimb && speed * static_cast<double>(reach_[i]) < kFastestPoint)) continue;
-    const float beside = around(frame, &Steps::turns, i, [&](std::int64_t a, std::int64_t b) {
+    const float adjacent = around(frame, &Steps::turns, i, [&](std::int64_t a, std::int64_t b) {
       return angle_between(motion_.pose(a).rotations[i], motion_.pose(b).rotations[i]);
     });
-    const double excess = static_cast<double>(step - beside) * hertz;
+    const double excess = static_cast<double>(step - adjacent) * hertz;
     const bool turns = excess > kFastestLimb && excess * hertz > kHardestTurn;
     if (turns || speed > kFastestTurn ||
         (excess * static_cast<double>(reach_[i]) > kFastestPoint &&
          reaches_beyond(frame, static_cast<JointIndex>(i), kFastestPoint / excess))) {
-      now_.push_back({frame, frame, static_cast<JointIndex>(i), true, step, beside});
+      now_.push_back({frame, frame, static_cast<JointIndex>(i), true, step, adjacent});
     }
   }
   for (std::size_t i = 0; i < steps.shifts.size(); ++i) {
     const float step = steps.shifts[i];
     const double speed = static_cast<double>(step) * hertz;
     if (step < kLeastShift || speed * hertz < kHardestShift) continue;
-    const float beside = around(frame, &Steps::shifts, i, [&](std::int64_t a, std::int64_t b) {
+    const float adjacent = around(frame, &Steps::shifts, i, [&](std::int64_t a, std::int64_t b) {
       return (motion_.pose(a).translations[i] - motion_.pose(b).translations[i]).norm();
     });
-    const double excess = static_cast<double>(step - beside) * hertz;
-    if (speed > kFastestPoint || (excess * hertz > kHardestShift && step - beside > kLeastShift)) {
-      now_.push_back({frame, frame, motion_.skeleton().translated_joints()[i], false, step, beside});
+    const double excess = static_cast<double>(step - adjacent) * hertz;
+    if (speed > kFastestPoint || (excess * hertz > kHardestShift && step - adjacent > kLeastShift)) {
+      now_.push_back({frame, frame, motion_.skeleton().translated_joints()[i], false, step, adjacent});
     }
   }
   gather(frame);
 }
 
-/// Joins the jumps of a frame with those before it.
+/// Merges the jumps of a frame with those before it.
 void JumpWatch::gather(std::int64_t frame) {
-  if (now_.size() >= many_) {  // the motion goes on elsewhere: said once
+  if (now_.size() >= many_) {  // the motion continues at another position: reported once
     Jump all = *std::max_element(now_.begin(), now_.end(), [](const Jump& a, const Jump& b) {
       return a.turns != b.turns ? b.turns : a.step < b.step;
     });
@@ -220,7 +222,7 @@ bool JumpWatch::comes_before(const Jump& a, const Jump& b) noexcept {
   return order(a) < order(b);
 }
 
-/// Of all jumps the earliest are told, so no more than these need be kept.
+/// Only the earliest jumps are reported, so no more than these are stored.
 void JumpWatch::keep(const Jump& jump) {
   if (jump.first < 0 || (excuse_ && excuse_(jump.first, jump.count > 1 ? kNoJoint : jump.joint))) return;
   ++jumps_;
@@ -230,7 +232,7 @@ void JumpWatch::keep(const Jump& jump) {
   kept_.resize(kMostDefects);
 }
 
-Defect JumpWatch::told(const Jump& jump) const {
+Defect JumpWatch::defect_of(const Jump& jump) const {
   const double speed = static_cast<double>(jump.step) * hertz_;
   const double degrees = static_cast<double>(jump.step) * 180 / std::numbers::pi;
   const std::string name = printable(motion_.skeleton().joint(jump.joint).name);
@@ -241,17 +243,16 @@ Defect JumpWatch::told(const Jump& jump) const {
             .text = fmt::format("{} joints jump at once, {} by {:.0f}°: a cut, or frames are missing", jump.count, name,
                                 degrees)};
   }
-  const double beside = static_cast<double>(jump.around) * (jump.turns ? 180 / std::numbers::pi : 100.0);
-  const std::string text =
-      jump.turns ? fmt::format(
-                       "{} turns by {:.0f}° in one frame ({:.3g} rad/s), beside it by {:.2g}°; mend it or cut "
-                       "it out",
-                       name, degrees, speed, beside)
-                 : fmt::format(
-                       "{} shifts by {:.3g} cm in one frame ({:.3g} m/s), beside it by {:.2g} cm; mend it or "
-                       "cut it out",
-                       name, static_cast<double>(jump.step) * 100, speed, beside);
-  // There and back: the frames between are those out of place.
+  const double adjacent = static_cast<double>(jump.around) * (jump.turns ? 180 / std::numbers::pi : 100.0);
+  const std::string text = jump.turns ? fmt::format(
+                                            "{} rotates by {:.0f}° in one frame ({:.3g} rad/s), in adjacent frames by "
+                                            "{:.2g}°; fix it or cut it out",
+                                            name, degrees, speed, adjacent)
+                                      : fmt::format(
+                                            "{} shifts by {:.3g} cm in one frame ({:.3g} m/s), in adjacent frames by "
+                                            "{:.2g} cm; fix it or cut it out",
+                                            name, static_cast<double>(jump.step) * 100, speed, adjacent);
+  // Away and back: the frames in between are the misplaced ones.
   return {.kind = DefectKind::jump,
           .joint = jump.joint,
           .frames = {jump.first, std::max(jump.first + 1, jump.last)},
@@ -267,7 +268,7 @@ Found JumpWatch::found() {
   std::sort(kept_.begin(), kept_.end(), comes_before);
   kept_.resize(std::min(kept_.size(), kMostDefects));
   Found result{.more = jumps_ - kept_.size()};
-  for (const Jump& jump : kept_) result.defects.push_back(told(jump));
+  for (const Jump& jump : kept_) result.defects.push_back(defect_of(jump));
   return result;
 }
 

@@ -11,7 +11,7 @@ NumberWatch::NumberWatch(const Motion& motion) : motion_(motion), latest_(motion
 
 void NumberWatch::flag(JointIndex joint, std::int64_t frame) {
   Latest& latest = latest_[static_cast<std::size_t>(joint)];
-  if (latest.end < frame) {  // a new stretch
+  if (latest.end < frame) {  // a new range
     latest.kept_at = bad_.size();
     if (bad_.size() < kMostDefects) {
       bad_.push_back({joint, {frame, frame}});
@@ -29,7 +29,7 @@ bool NumberWatch::see(std::int64_t frame) {
   const PoseView before = motion_.pose(frame == 0 ? 0 : frame - 1);
   for (std::size_t i = 0; i < now.rotations.size(); ++i) {
     const float cosine = before.rotations[i].dot(now.rotations[i]);
-    if (cosine > 0 && cosine < 2) continue;  // and so every number is one
+    if (cosine > 0 && cosine < 2) continue;  // so every component is finite
     const auto joint = static_cast<JointIndex>(i);
     if (!now.rotations[i].coeffs().allFinite()) {
       flag(joint, frame);
@@ -52,11 +52,11 @@ bool NumberWatch::see(std::int64_t frame) {
 
 Found NumberWatch::flips() const {
   Found result{.more = more_flips_};
-  for (const Place& flip : flips_) {
+  for (const JointFrames& flip : flips_) {
     result.defects.push_back({.kind = DefectKind::quaternion_flip,
                               .joint = flip.joint,
                               .frames = flip.frames,
-                              .text = fmt::format("{} changes the sign of its quaternion: the same rotation, mended "
+                              .text = fmt::format("{} changes the sign of its quaternion: the same rotation, corrected "
                                                   "when it is stored",
                                                   printable(motion_.skeleton().joint(flip.joint).name))});
   }
@@ -65,11 +65,11 @@ Found NumberWatch::flips() const {
 
 Found NumberWatch::not_finite() const {
   Found result{.more = more_bad_};
-  for (const Place& bad : bad_) {
+  for (const JointFrames& bad : bad_) {
     result.defects.push_back({.kind = DefectKind::not_finite,
                               .joint = bad.joint,
                               .frames = bad.frames,
-                              .text = fmt::format("{} has numbers that are infinite or none; export the motion again",
+                              .text = fmt::format("{} has values that are NaN or infinite; export the motion again",
                                                   printable(motion_.skeleton().joint(bad.joint).name))});
   }
   return result;

@@ -14,14 +14,14 @@
 namespace signweave::defect {
 namespace {
 
-// All (ours): captured numbers tremble, so a joint that is followed at all changes in nearly every frame.
-constexpr double kLong = 1.0;            // seconds of a stretch that counts
-constexpr double kLive = 0.95;           // share of its other frames in which a joint must change
-constexpr double kLeastElsewhere = 0.1;  // of the motion must be such other frames
-constexpr double kRestless = 0.5;        // share of the moving joints that must change in nearly every frame
-constexpr double kBodyMoves = 0.9;       // share of the stretch in which the body must move
-constexpr std::int64_t kBodyPart = 4;    // a body moves where one in so many of its joints does
-constexpr std::int64_t kAlike = 2;       // frames by which stretches of joints lost together may differ
+// All values are ours: captured values fluctuate, so a tracked joint changes in nearly every frame.
+constexpr double kLong = 1.0;            // minimum duration of a run that counts, seconds
+constexpr double kLive = 0.95;           // fraction of its other frames in which a joint must change
+constexpr double kLeastElsewhere = 0.1;  // minimum fraction of such other frames in the motion
+constexpr double kRestless = 0.5;        // fraction of the moving joints that must change in nearly every frame
+constexpr double kBodyMoves = 0.9;       // fraction of the run in which the body must move
+constexpr std::int64_t kBodyPart = 4;    // a body moves if at least one in this many of its joints does
+constexpr std::int64_t kAlike = 2;       // maximum difference in frames between runs of joints lost together
 
 using Bits = std::array<std::uint32_t, 4>;
 
@@ -88,11 +88,11 @@ void StillWatch::end_run(JointIndex joint, std::int64_t end) {
   }
 }
 
-/// A value that a joint also has at other times is where it rests or where its range ends.
-void StillWatch::erase_those_that_come_back(std::vector<Run>& runs) const {
+/// A value that a joint also has at other times is its rest position or the end of its range.
+void StillWatch::erase_recurring(std::vector<Run>& runs) const {
   if (runs.empty()) return;
   const JointIndex joint = runs.front().joint;
-  std::vector<std::pair<Bits, std::int64_t>> times;  // of each value that is held, by value
+  std::vector<std::pair<Bits, std::int64_t>> times;  // number of frames with each held value, sorted by value
   for (const Run& run : runs) times.emplace_back(bits_of(rotation(run.steps.begin, joint)), 0);
   std::sort(times.begin(), times.end());
   times.erase(std::unique(times.begin(), times.end()), times.end());
@@ -110,13 +110,13 @@ void StillWatch::erase_those_that_come_back(std::vector<Run>& runs) const {
   });
 }
 
-/// By joint and frame.
+/// Sorted by joint and frame.
 std::vector<StillWatch::Run> StillWatch::frozen_runs() const {
   std::vector<Run> frozen;
   const auto steps = static_cast<double>(count() - 1);
   const auto live = static_cast<std::int64_t>(
       std::count_if(joints_.begin(), joints_.end(), [](const Joint& joint) { return joint.changes > 0; }));
-  // Where most joints rest now and then, the motion was drawn or edited, and rests are part of it.
+  // If most joints rest now and then, the motion was animated or edited, and rests are part of it.
   const auto restless = std::count_if(joints_.begin(), joints_.end(), [&](const Joint& joint) {
     return static_cast<double>(joint.changes) >= kLive * steps;
   });
@@ -141,13 +141,13 @@ std::vector<StillWatch::Run> StillWatch::frozen_runs() const {
     for (; i < runs.size() && runs[i].joint == joint; ++i) {
       if (may_be_frozen(runs[i])) of_joint.push_back(runs[i]);
     }
-    erase_those_that_come_back(of_joint);
+    erase_recurring(of_joint);
     frozen.insert(frozen.end(), of_joint.begin(), of_joint.end());
   }
   return frozen;
 }
 
-/// By their first frame. The runs must come by joint and frame.
+/// Sorted by first frame. The runs must be sorted by joint and frame.
 std::vector<StillWatch::Together> StillWatch::lost_together(std::vector<Run> frozen) const {
   struct Entry {
     FrameRange steps;
@@ -159,18 +159,18 @@ std::vector<StillWatch::Together> StillWatch::lost_together(std::vector<Run> fro
   std::vector<Entry> by_steps;
   for (std::size_t i = 0; i < frozen.size(); ++i) by_steps.push_back({frozen[i].steps, i});
   std::sort(by_steps.begin(), by_steps.end(), comes_before);
-  std::vector<bool> told(frozen.size(), false);
+  std::vector<bool> reported(frozen.size(), false);
   std::vector<Together> result;
   for (std::size_t i = 0; i < frozen.size(); ++i) {
-    if (told[i]) continue;
+    if (reported[i]) continue;
     const FrameRange steps = frozen[i].steps;
     Together together{
         .frames = {shown_[static_cast<std::size_t>(steps.begin)], shown_[static_cast<std::size_t>(steps.end - 1)] + 1}};
     for (std::int64_t begin = steps.begin - kAlike; begin <= steps.begin + kAlike; ++begin) {
       auto at = std::lower_bound(by_steps.begin(), by_steps.end(), Entry{{begin, steps.end - kAlike}, 0}, comes_before);
       for (; at != by_steps.end() && at->steps.begin == begin && at->steps.end <= steps.end + kAlike; ++at) {
-        if (told[at->run]) continue;
-        told[at->run] = true;
+        if (reported[at->run]) continue;
+        reported[at->run] = true;
         together.joints.push_back(frozen[at->run].joint);
       }
     }
@@ -182,7 +182,7 @@ std::vector<StillWatch::Together> StillWatch::lost_together(std::vector<Run> fro
   return result;
 }
 
-std::vector<JointIndex> StillWatch::signing_joints_that_never_move() const {
+std::vector<JointIndex> StillWatch::motionless_signing_joints() const {
   std::vector<JointIndex> never;
   const auto look = [&](Part part) {
     const PartPlace& place = rig_[part];
@@ -209,9 +209,9 @@ Found StillWatch::found() {
     end_run(static_cast<JointIndex>(i), count());
     moves = moves || joints_[i].changes > 0;
   }
-  // A motion too short or without any movement tells nothing.
+  // A motion that is too short or without any movement gives no information.
   if (count() < shortest_ || !moves) return result;
-  const std::vector<JointIndex> never = signing_joints_that_never_move();
+  const std::vector<JointIndex> never = motionless_signing_joints();
   if (!never.empty()) {
     Defect defect{.kind = DefectKind::frozen_joint};
     defect.text = fmt::format("{} never {}: not captured, so signs lack {}", names_of(motion_.skeleton(), never, 6),
@@ -229,7 +229,7 @@ Found StillWatch::found() {
          .joint = joints.front(),
          .frames = frames,
          .value = static_cast<float>(seconds),
-         .text = fmt::format("{} {} still to the bit for {:.1f} s while the body moves: the capture lost {}",
+         .text = fmt::format("{} {} exactly still for {:.1f} s while the body moves: the capture lost {}",
                              names_of(motion_.skeleton(), joints), joints.size() == 1 ? "keeps" : "keep", seconds,
                              joints.size() == 1 ? "it" : "them")});
   }

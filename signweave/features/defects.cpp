@@ -15,9 +15,9 @@ namespace {
 constexpr std::array<std::string_view, 7> kNames = {"T-pose",        "frozen joint", "jump",      "quaternion flip",
                                                     "permuted root", "scale",        "not finite"};
 
-/// [frame] The cut from a T-pose to the signing, or back, is no second defect.
+/// Returns [frame] whether it is near the cut from a T-pose to the signing, or back, which is not a second defect.
 std::vector<bool> cuts_of(const std::vector<Defect>& poses, std::int64_t frames) {
-  constexpr std::int64_t kNear = 2;  // frames: the arms may be on their way for one
+  constexpr std::int64_t kNear = 2;  // frames: the arms may be in transit for one
   std::vector<bool> cuts(static_cast<std::size_t>(frames), false);
   for (const Defect& pose : poses) {
     for (const std::int64_t cut : {pose.frames.begin, pose.frames.end}) {
@@ -30,16 +30,16 @@ std::vector<bool> cuts_of(const std::vector<Defect>& poses, std::int64_t frames)
   return cuts;
 }
 
-/// Adds what was found of one kind; the last says how many more there are.
+/// Adds the defects of one kind; the last one says how many more there are.
 void add(defect::Found found, std::vector<Defect>& all) {
   assert(found.defects.size() <= kMostDefects);
   if (found.more > 0) {
-    fmt::format_to(std::back_inserter(found.defects.back().text), "; and {} more of the kind", found.more);
+    fmt::format_to(std::back_inserter(found.defects.back().text), "; and {} more of this kind", found.more);
   }
   std::move(found.defects.begin(), found.defects.end(), std::back_inserter(all));
 }
 
-/// The first kMostDefects.
+/// Keeps the first kMostDefects.
 defect::Found first_of(std::vector<Defect> defects) {
   const std::size_t more = defects.size() - std::min(defects.size(), kMostDefects);
   defects.resize(defects.size() - more);
@@ -56,10 +56,10 @@ std::string_view name_of(DefectKind kind) noexcept {
 std::vector<Defect> find_defects(const Motion& motion, const RigMap& rig) {
   std::vector<Defect> all;
   if (motion.frame_count() == 0) return all;
-  // What the frames hold decides who may be shown them, and what T-poses there are which jumps are told.
+  // The first pass finds invalid frames, which other detectors skip, and T-poses, which excuse jumps.
   defect::NumberWatch numbers(motion);
   defect::TPoseWatch poses(motion, rig);
-  std::vector<bool> is_whole(static_cast<std::size_t>(motion.frame_count()));  // every number is one
+  std::vector<bool> is_whole(static_cast<std::size_t>(motion.frame_count()));  // all values are finite
   ModelPose model;
   for (std::int64_t frame = 0; frame < motion.frame_count(); ++frame) {
     const bool good = numbers.see(frame);
@@ -75,7 +75,8 @@ std::vector<Defect> find_defects(const Motion& motion, const RigMap& rig) {
 
   defect::StillWatch still(motion, rig);
   defect::JumpWatch jumps(motion, [&](std::int64_t frame, JointIndex joint) {
-    return cuts[static_cast<std::size_t>(frame)] || (permuted && joint == 0);  // where the root is then says nothing
+    return cuts[static_cast<std::size_t>(frame)] ||
+           (permuted && joint == 0);  // the root's position is meaningless then
   });
   for (std::int64_t frame = 0; frame < motion.frame_count(); ++frame) {
     const bool good = is_whole[static_cast<std::size_t>(frame)];
@@ -90,7 +91,7 @@ std::vector<Defect> find_defects(const Motion& motion, const RigMap& rig) {
   if (permuted) {
     Defect defect{.kind = DefectKind::permuted_root, .joint = 0};
     defect.text = fmt::format(
-        "{} never turns, and stands turned by its own offset taken for degrees: its columns hold "
+        "{} has a constant rotation that equals its offset taken as degrees: its columns contain "
         "the rotation first; read the file with the rotation first",
         printable(motion.skeleton().joint(0).name));
     all.push_back(std::move(defect));

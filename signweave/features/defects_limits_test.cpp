@@ -1,5 +1,5 @@
-// Defects of motions that are long, wide or damaged throughout: found in a time that grows as the motion does, told at
-// most kMostDefects times, and numbers that are none mistaken for nothing else.
+// Defects of motions that are long, have many joints or are damaged throughout: detection takes time proportional to
+// the motion, reports each kind at most kMostDefects times, and does not mistake non-finite values for other defects.
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -21,7 +21,7 @@ using testing::HasSubstr;
 constexpr FrameRate kRate{100, 1};
 constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
 
-/// A body with hanging arms, and further joints on its root.
+/// A body with hanging arms and additional joints on its root.
 std::shared_ptr<const Skeleton> body(int further = 0) {
   std::vector<Joint> joints = {{.name = "Hips", .translated = true},
                                {.name = "Neck", .parent = 0, .offset = {0, 0.5f, 0}},
@@ -38,7 +38,7 @@ std::shared_ptr<const Skeleton> body(int further = 0) {
   return std::make_shared<const Skeleton>(joints, std::vector<Tip>{});
 }
 
-/// Every joint trembles, never twice alike.
+/// Every joint fluctuates without repeating a value.
 Motion trembling(const std::shared_ptr<const Skeleton>& skeleton, std::int64_t frames, FrameRate rate = kRate) {
   std::minstd_rand random(1);
   const auto noise = [&] { return 0.02f * (static_cast<float>(random()) / static_cast<float>(random.max()) - 0.5f); };
@@ -77,7 +77,7 @@ void drop_out(Motion& motion, std::int64_t joints) {
   }
 }
 
-TEST(DefectLimits, DropOutsOfALongMotionTakeTimeAsItsFramesDo) {
+TEST(DefectLimits, DropOutsOfALongMotionTakeLinearTime) {
 #ifdef NDEBUG
   constexpr std::int64_t kFrames = 40'000;
 #else  // unoptimised, and with sanitizers
@@ -86,32 +86,33 @@ TEST(DefectLimits, DropOutsOfALongMotionTakeTimeAsItsFramesDo) {
   Motion motion = trembling(body(52), kFrames, {10, 1});
   const double clean = std::min(seconds_for(motion), seconds_for(motion));
   drop_out(motion, 20);
-  const double dropped = std::min(seconds_for(motion), seconds_for(motion));  // others take their share of the machine
+  const double dropped =
+      std::min(seconds_for(motion), seconds_for(motion));  // the minimum, because other processes share the machine
   RecordProperty("times", std::to_string(dropped / clean));
   EXPECT_LT(dropped, 10 * clean) << clean << " s without";
   const std::vector<Defect> found = defects_of(motion);
   ASSERT_EQ(found.size(), kMostDefects);
   EXPECT_EQ(found[1].frames, (FrameRange{10, 20}));
-  EXPECT_EQ(found.back().frames, (FrameRange{490, 500})) << "the first ones are told";
-  EXPECT_THAT(found.back().text, HasSubstr(fmt::format("{} more of the kind", kFrames / 10 - 50)));
+  EXPECT_EQ(found.back().frames, (FrameRange{490, 500})) << "the first ones are reported";
+  EXPECT_THAT(found.back().text, HasSubstr(fmt::format("{} more of this kind", kFrames / 10 - 50)));
 }
 
-TEST(DefectLimits, AValueThatComesBackIsARest) {
+TEST(DefectLimits, ARecurringValueIsARest) {
   Motion motion = trembling(body(20), 1000);
   for (std::int64_t frame = 301; frame < 420; ++frame) {
     for (const std::size_t joint : {5u, 8u}) motion.pose(frame).rotations[joint] = motion.pose(300).rotations[joint];
   }
   ASSERT_EQ(defects_of(motion).size(), 1u);
-  EXPECT_THAT(defects_of(motion)[0].text, HasSubstr("LeftHand and RightHand keep still"));
+  EXPECT_THAT(defects_of(motion)[0].text, HasSubstr("LeftHand and RightHand keep exactly still"));
   motion.pose(900).rotations[5] = motion.pose(300).rotations[5];
   ASSERT_EQ(defects_of(motion).size(), 1u);
-  EXPECT_THAT(defects_of(motion)[0].text, HasSubstr("RightHand keeps still"));
+  EXPECT_THAT(defects_of(motion)[0].text, HasSubstr("RightHand keeps exactly still"));
   for (std::int64_t frame = 600; frame < 720; ++frame) motion.pose(frame).rotations[8] = motion.pose(300).rotations[8];
-  EXPECT_TRUE(defects_of(motion).empty()) << "held twice";
+  EXPECT_TRUE(defects_of(motion).empty()) << "the value occurs twice";
 }
 
-TEST(DefectLimits, ACombOfThousandsOfJointsIsJudgedAtOnce) {
-  // A spine along X with teeth: it turns about itself, so that no tooth goes fast, however long the spine is.
+TEST(DefectLimits, ACombOfThousandsOfJointsIsEvaluatedQuickly) {
+  // A spine along X with teeth, rotating about itself, so that no tooth moves fast, however long the spine is.
   std::vector<Joint> joints = {{.name = "Root", .translated = true}};
   std::vector<Tip> tips;
   for (int i = 0; i < 2500; ++i) {
@@ -130,7 +131,7 @@ TEST(DefectLimits, ACombOfThousandsOfJointsIsJudgedAtOnce) {
   const auto start = std::chrono::steady_clock::now();
   EXPECT_TRUE(find_defects(motion, RigMap()).empty());
   EXPECT_LT(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(),
-            8);  // more than 11 s, were it quadratic
+            8);  // a quadratic algorithm would take more than 11 s
 }
 
 TEST(DefectLimits, OneKindDoesNotCrowdOutAnother) {
@@ -141,15 +142,15 @@ TEST(DefectLimits, OneKindDoesNotCrowdOutAnother) {
   for (std::int64_t frame = 10; frame < 300; frame += 4) motion.pose(frame).rotations[7].x() = kNone;
   const std::vector<Defect> flips = of_kind(DefectKind::quaternion_flip, defects_of(motion));
   ASSERT_EQ(flips.size(), kMostDefects);
-  // Of 399 steps of 9 joints, two of one joint are lost with each of the 73 frames.
-  EXPECT_THAT(flips.back().text, HasSubstr(std::to_string(399 * 9 - 73 * 2 - 50) + " more of the kind"));
+  // Of 399 steps of 9 joints, each of the 73 frames removes two steps of one joint.
+  EXPECT_THAT(flips.back().text, HasSubstr(std::to_string(399 * 9 - 73 * 2 - 50) + " more of this kind"));
   const std::vector<Defect> bad = of_kind(DefectKind::not_finite, defects_of(motion));
   ASSERT_EQ(bad.size(), kMostDefects);
   EXPECT_EQ(bad[1].frames, (FrameRange{14, 15}));
-  EXPECT_THAT(bad.back().text, HasSubstr("23 more of the kind"));
+  EXPECT_THAT(bad.back().text, HasSubstr("23 more of this kind"));
 }
 
-TEST(DefectLimits, NumbersThatAreNoneAreNoTPose) {
+TEST(DefectLimits, NonFiniteValuesAreNotATPose) {
   for (const std::int64_t begin : {0, 300, 700}) {
     Motion motion = trembling(body(), 800);
     for (std::int64_t frame = begin; frame < begin + 100; ++frame) {
@@ -164,14 +165,14 @@ TEST(DefectLimits, NumbersThatAreNoneAreNoTPose) {
   }
 }
 
-TEST(DefectLimits, FramesOfNoNumbersAreLeftOutOfAStretch) {
+TEST(DefectLimits, NonFiniteFramesAreLeftOutOfARun) {
   Motion motion = trembling(body(), 1000);
   for (std::int64_t frame = 301; frame < 450; ++frame) {
     motion.pose(frame).rotations[8] = motion.pose(300).rotations[8];
   }
   for (std::int64_t frame = 340; frame < 400; ++frame) motion.pose(frame).rotations[8].w() = kNone;
   const std::vector<Defect> lost = of_kind(DefectKind::frozen_joint, defects_of(motion));
-  EXPECT_TRUE(lost.empty()) << "90 frames are no second";
+  EXPECT_TRUE(lost.empty()) << "90 frames are less than a second";
   for (std::int64_t frame = 350; frame < 400; ++frame) {
     motion.pose(frame).rotations[8] = motion.pose(300).rotations[8];
   }
@@ -196,7 +197,7 @@ TEST(DefectLimits, ManyJumpsAreCounted) {
     const auto frame = static_cast<std::int64_t>(5 + 10 * (i / 2));
     EXPECT_EQ(found[i].frames, (FrameRange{frame, frame + 1}));
   }
-  EXPECT_THAT(found.back().text, HasSubstr("150 more of the kind"));
+  EXPECT_THAT(found.back().text, HasSubstr("150 more of this kind"));
 }
 
 }  // namespace

@@ -10,7 +10,8 @@ namespace {
 
 constexpr std::size_t kMostSteps = 40;
 
-/// The one of 1, 2, 5 times powers of ten that is nearest to `width` as a ratio, but not under `least`.
+/// Returns the number of the form 1, 2 or 5 times a power of ten that is nearest to `width` as a ratio, but not below
+/// `least`.
 double round_width(double width, double least) {
   const double power = std::pow(10.0, std::floor(std::log10(width)));
   double nearest = 0;
@@ -29,14 +30,14 @@ double quantile_of(std::span<const double> sorted, double part) {
   return sorted[low] + (at - static_cast<double>(low)) * (sorted[high] - sorted[low]);
 }
 
-/// Steps after Freedman and Diaconis 1981: 2 · (quartile distance) / ∛count, made round, never too many.
+/// Bin width by Freedman and Diaconis 1981: 2 · (interquartile range) / ∛count, rounded, with a limited number of bins.
 Histogram histogram_of(std::span<const double> sorted) {
   const double range = sorted.back() - sorted.front();
   const double between = quantile_of(sorted, 0.75) - quantile_of(sorted, 0.25);
   double width = 2 * between / std::cbrt(static_cast<double>(sorted.size()));
   const double least = range / static_cast<double>(kMostSteps - 1);
   width = std::max(width, least);
-  if (!(width > 0)) width = std::max(std::abs(sorted.front()) * 0.1, 1e-6);  // all alike
+  if (!(width > 0)) width = std::max(std::abs(sorted.front()) * 0.1, 1e-6);  // all values are equal
   Histogram histogram;
   histogram.width = round_width(width, least);
   histogram.begin = std::floor(sorted.front() / histogram.width) * histogram.width;

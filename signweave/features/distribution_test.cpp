@@ -8,7 +8,7 @@
 namespace signweave {
 namespace {
 
-TEST(Distribution, OfFourNumbers) {
+TEST(Distribution, OfFourValues) {
   const std::vector<double> values = {10, 40, 20, 30};
   const Distribution of = distribution_of(values);
   EXPECT_EQ(of.count, 4u);
@@ -19,12 +19,12 @@ TEST(Distribution, OfFourNumbers) {
   EXPECT_DOUBLE_EQ(of.median(), 25);
   EXPECT_DOUBLE_EQ(of.quantiles[0], 11.5);
   EXPECT_DOUBLE_EQ(of.quantiles[6], 38.5);
-  // Student's t for 3 degrees times s / √n, s over n − 1: 3.182 · 12.910 / 2.
+  // Student's t for 3 degrees of freedom times s / √n, s with n − 1: 3.182 · 12.910 / 2.
   EXPECT_NEAR(of.mean_high - of.mean, 20.54, 0.01);
   EXPECT_NEAR(of.mean - of.mean_low, 20.54, 0.01);
 }
 
-TEST(Distribution, OfNothingAndOfOne) {
+TEST(Distribution, OfNoValuesAndOfOne) {
   EXPECT_EQ(distribution_of({}).count, 0u);
   EXPECT_TRUE(distribution_of({}).histogram.counts.empty());
   const std::vector<double> one = {7};
@@ -35,7 +35,7 @@ TEST(Distribution, OfNothingAndOfOne) {
   EXPECT_EQ(of.histogram.counts, std::vector<std::size_t>{1});
 }
 
-TEST(Distribution, StudentsTIsThatOfTables) {
+TEST(Distribution, StudentsTMatchesTables) {
   EXPECT_NEAR(student_t_95(1), 12.706, 0.001);
   EXPECT_NEAR(student_t_95(10), 2.228, 0.001);
   EXPECT_NEAR(student_t_95(11), 2.201, 0.001);
@@ -45,7 +45,7 @@ TEST(Distribution, StudentsTIsThatOfTables) {
   EXPECT_NEAR(student_t_95(1'000'000), 1.960, 0.001);
 }
 
-TEST(Distribution, AHistogramHasRoundStepsOfFreedmanAndDiaconis) {
+TEST(Distribution, AHistogramHasRoundBinsByFreedmanAndDiaconis) {
   std::vector<double> values(1000);
   std::iota(values.begin(), values.end(), 3.0);
   const Histogram of = distribution_of(values).histogram;
@@ -54,14 +54,14 @@ TEST(Distribution, AHistogramHasRoundStepsOfFreedmanAndDiaconis) {
   EXPECT_EQ(of.counts, (std::vector<std::size_t>{97, 100, 100, 100, 100, 100, 100, 100, 100, 100, 3}));
 }
 
-TEST(Distribution, StepsAreTheNearestRoundOnes) {
+TEST(Distribution, BinWidthsAreTheNearestRoundOnes) {
   // Quartiles 870 and 1250 of 21 numbers: 2 · 380 / ∛21 = 275.
   std::vector<double> values = {610,  650,  670,  670,  720,  870,  980,  1010, 1030, 1050, 1060,
                                 1110, 1150, 1170, 1240, 1250, 1250, 1270, 1290, 1500, 1760};
   EXPECT_EQ(distribution_of(values).histogram.width, 200);
 }
 
-RC_GTEST_PROP(Distribution, EveryValueFallsIntoOneStep, (const std::vector<std::int32_t>& numbers)) {
+RC_GTEST_PROP(Distribution, EveryValueIsInOneBin, (const std::vector<std::int32_t>& numbers)) {
   const std::vector<double> values(numbers.begin(), numbers.end());
   const Distribution of = distribution_of(values);
   RC_ASSERT(std::accumulate(of.histogram.counts.begin(), of.histogram.counts.end(), std::size_t{0}) == values.size());

@@ -8,25 +8,25 @@
 namespace signweave {
 namespace {
 
-/// What the logarithm of the duration is linear in; the first is 1.
+/// The inputs of the linear model of the logarithm of the duration; the first is 1.
 constexpr int kInputs = 5;
 using Inputs = Eigen::Matrix<double, kInputs, 1>;
 
-constexpr double kLeastDistance = 0.02;  // metres: how well a hand's place is known
-/// Of the mean's error: what a fit must get below to be taken.
+constexpr double kLeastDistance = 0.02;  // metres: accuracy of a hand's position
+/// A fit is used only if its error is below this fraction of the mean's error.
 constexpr double kWorthwhile = 0.95;
 constexpr double kRidge = 2.0;  // transitions
 constexpr int kRounds = 25;
-constexpr double kLeastResidual = 0.05;  // of the logarithm: nearer is as good as met
+constexpr double kLeastResidual = 0.05;  // in the logarithm: residuals below this count as equal
 
 bool known(const TransitionTask& task) noexcept {
   return task.hands[0].known || task.hands[1].known;
 }
 
-/// The hand that goes farther. The task must be known.
+/// Returns the hand that moves farther. The task must be known.
 const HandTask& busier_of(const TransitionTask& task) noexcept {
-  const auto way = [&](std::size_t side) { return task.hands[side].known ? task.hands[side].distance : -1.0f; };
-  return task.hands[way(1) >= way(0) ? 1 : 0];
+  const auto distance = [&](std::size_t side) { return task.hands[side].known ? task.hands[side].distance : -1.0f; };
+  return task.hands[distance(1) >= distance(0) ? 1 : 0];
 }
 
 Inputs inputs_of(const TransitionTask& task) noexcept {
@@ -42,13 +42,13 @@ struct Row {
   Inputs inputs;
   double distance = 0;
   double seconds = 0;
-  std::size_t part = 0;  ///< of the cross-validation
+  std::size_t part = 0;  ///< group in the cross-validation
 };
 
-/// What is learned of some rows.
+/// A model fitted to some rows.
 struct Model {
   Inputs weights = Inputs::Zero();
-  Inputs low = Inputs::Zero();  ///< inputs are not looked at beyond
+  Inputs low = Inputs::Zero();  ///< bounds to which inputs are clamped
   Inputs high = Inputs::Zero();
   double mean = 0;
   double least = 0;
@@ -57,8 +57,8 @@ struct Model {
 
   Inputs within(const Inputs& inputs) const noexcept { return inputs.cwiseMax(low).cwiseMin(high); }
   double seconds(const Inputs& inputs, double distance) const noexcept {
-    const double told = std::exp(weights.dot(within(inputs)));
-    return std::clamp(fastest > 0 ? std::max(told, distance / fastest) : told, least, most);
+    const double predicted = std::exp(weights.dot(within(inputs)));
+    return std::clamp(fastest > 0 ? std::max(predicted, distance / fastest) : predicted, least, most);
   }
 };
 
@@ -72,7 +72,8 @@ void solve(std::span<const Row> rows, Model& model) {
   spread = spread.cwiseSqrt();
   const auto scaled = [&](const Row& row) {
     Inputs x = model.within(row.inputs) - mean;
-    for (int i = 1; i < kInputs; ++i) x[i] = spread[i] > 1e-6 ? x[i] / spread[i] : 0.0;  // no change tells nothing
+    for (int i = 1; i < kInputs; ++i)
+      x[i] = spread[i] > 1e-6 ? x[i] / spread[i] : 0.0;  // a constant input carries no information
     x[0] = 1;
     return x;
   };
@@ -99,7 +100,7 @@ void solve(std::span<const Row> rows, Model& model) {
   model.weights = weights;
 }
 
-/// Rows: at least one.
+/// Fits a model to at least one row.
 Model learn(std::span<const Row> rows) {
   Model model{.least = rows.front().seconds, .most = rows.front().seconds};
   std::vector<double> sorted(rows.size());
@@ -119,7 +120,7 @@ Model learn(std::span<const Row> rows) {
   return model;
 }
 
-/// Errors with one part left out at a time.
+/// Errors with one group left out at a time.
 struct Errors {
   double mean = 0;
   double fitted = 0;
@@ -141,7 +142,7 @@ Errors cross_validate(std::span<const Row> rows, std::size_t parts) {
   return errors;
 }
 
-/// Recordings numbered from 0; one alone is parted into fifths, in order. Returns how many parts there are.
+/// Numbers the recordings from 0; a single recording is divided into fifths, in order. Returns the number of groups.
 std::size_t part(std::span<const TimedTransition> transitions, std::vector<Row>& rows) {
   std::vector<std::size_t> seen;
   std::size_t at = 0;
@@ -160,13 +161,13 @@ std::size_t part(std::span<const TimedTransition> transitions, std::vector<Row>&
 }  // namespace
 
 HandTask task_from(const HandThere& from, const HandThere& to) noexcept {
-  const Eigen::Vector3f way = to.place - from.place;
+  const Eigen::Vector3f displacement = to.place - from.place;
   HandTask task{.known = true,
-                .distance = way.norm(),
+                .distance = displacement.norm(),
                 .speed_before = from.velocity.norm(),
                 .speed_after = to.velocity.norm(),
                 .handshape_change = distance(from.shape, to.shape)};
-  if (task.distance > 1e-6f) task.approach = (from.velocity + to.velocity).dot(way) / task.distance;
+  if (task.distance > 1e-6f) task.approach = (from.velocity + to.velocity).dot(displacement) / task.distance;
   return task;
 }
 
@@ -257,7 +258,7 @@ void encode(const DurationFit& fit, ByteWriter& out) {
 DurationFit decode_duration_fit(ByteReader& in) {
   const auto seconds = [&] {
     const auto number = in.number<double>();
-    if (!std::isfinite(number) || number < 0) in.fail("a duration is no number of seconds");
+    if (!std::isfinite(number) || number < 0) in.fail("a duration is not a valid number of seconds");
     return Seconds(number);
   };
   DurationFit fit;
@@ -266,13 +267,13 @@ DurationFit decode_duration_fit(ByteReader& in) {
   fit.mean_error = seconds();
   fit.fitted_error = seconds();
   const auto fitted = in.number<std::uint8_t>();
-  if (fitted > 1) in.fail("it is neither fitted nor not");
+  if (fitted > 1) in.fail("the flag of the fit is neither 0 nor 1");
   if (fitted == 0) return fit;
   const auto inputs = [&] {
     std::vector<float> numbers(kInputs);
     for (float& number : numbers) {
       number = in.number<float>();
-      if (!std::isfinite(number)) in.fail("a number of the fit is not finite");
+      if (!std::isfinite(number)) in.fail("a value of the fit is not finite");
     }
     return numbers;
   };
@@ -280,12 +281,13 @@ DurationFit decode_duration_fit(ByteReader& in) {
   fit.inputs_least = inputs();
   fit.inputs_most = inputs();
   for (std::size_t i = 0; i < fit.inputs_least.size(); ++i) {
-    if (fit.inputs_least[i] > fit.inputs_most[i]) in.fail("a bound of the fit is above the other");
+    if (fit.inputs_least[i] > fit.inputs_most[i]) in.fail("a lower bound of the fit exceeds its upper bound");
   }
   fit.least = seconds();
   fit.most = seconds();
   fit.fastest = in.number<float>();
-  if (fit.least > fit.most || !std::isfinite(fit.fastest) || fit.fastest < 0) in.fail("a bound of the fit is wrong");
+  if (fit.least > fit.most || !std::isfinite(fit.fastest) || fit.fastest < 0)
+    in.fail("a bound of the fit is out of range");
   return fit;
 }
 

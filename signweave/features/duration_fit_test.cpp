@@ -19,7 +19,7 @@ TransitionTask task(float distance, float approach = 0, float speed = 0) {
   return task;
 }
 
-/// Transitions that follow a law, give or take noise, of so many recordings.
+/// Transitions that follow a law plus noise, from the given number of recordings.
 std::vector<TimedTransition> lawful(std::size_t count, std::size_t recordings, float noise) {
   std::mt19937 random(7);
   std::vector<TimedTransition> result;
@@ -36,7 +36,7 @@ std::vector<TimedTransition> lawful(std::size_t count, std::size_t recordings, f
   return result;
 }
 
-TEST(Durations, AreFittedWhereTheTaskTellsThem) {
+TEST(Durations, AreFittedIfTheTaskPredictsThem) {
   const DurationFit fit = fit_durations(lawful(80, 4, 0.1f));
   EXPECT_EQ(fit.count, 80u);
   ASSERT_FALSE(fit.weights.empty());
@@ -46,7 +46,7 @@ TEST(Durations, AreFittedWhereTheTaskTellsThem) {
   EXPECT_LT(duration_of(fit, task(0.3f, 0.5f, 0.3f)), duration_of(fit, task(0.3f, -0.2f, 0.3f)));
 }
 
-TEST(Durations, AreTheMeanWhereTheTaskTellsNothing) {
+TEST(Durations, AreTheMeanIfTheTaskPredictsNothing) {
   std::vector<TimedTransition> transitions = lawful(60, 3, 0.1f);
   std::mt19937 random(3);
   for (TimedTransition& one : transitions) one.duration = Seconds(0.3 + 0.001 * static_cast<double>(random() % 500));
@@ -65,16 +65,16 @@ TEST(Durations, FewTransitionsGiveTheirMean) {
   EXPECT_EQ(fit_durations({}).count, 0u);
 }
 
-TEST(Durations, OneRecordingIsParted) {
+TEST(Durations, OneRecordingIsDivided) {
   EXPECT_FALSE(fit_durations(lawful(60, 1, 0.1f)).weights.empty());
 }
 
-TEST(Durations, AHandThatIsNotKnownTellsNothing) {
+TEST(Durations, AnUnknownHandIsIgnored) {
   const DurationFit fit = fit_durations(lawful(80, 4, 0.1f));
   EXPECT_EQ(duration_of(fit, {}), fit.mean);
 }
 
-RC_GTEST_PROP(Durations, StayWithinWhatWasSeen, ()) {
+RC_GTEST_PROP(Durations, StayWithinTheTrainingRange, ()) {
   static const std::vector<TimedTransition> seen = lawful(80, 4, 0.2f);
   static const DurationFit fit = fit_durations(seen);
   Seconds least = seen[0].duration;
@@ -84,12 +84,12 @@ RC_GTEST_PROP(Durations, StayWithinWhatWasSeen, ()) {
     most = std::max(most, one.duration);
   }
   const auto number = [](int low, int high) { return 0.01f * static_cast<float>(*rc::gen::inRange(low, high)); };
-  const Seconds told = duration_of(fit, task(number(0, 500), number(-900, 900), number(0, 900)));
-  RC_ASSERT(told.count() >= least.count() - 1e-6);
-  RC_ASSERT(told.count() <= most.count() + 1e-6);
+  const Seconds predicted = duration_of(fit, task(number(0, 500), number(-900, 900), number(0, 900)));
+  RC_ASSERT(predicted.count() >= least.count() - 1e-6);
+  RC_ASSERT(predicted.count() <= most.count() + 1e-6);
 }
 
-TEST(Durations, AreReadAsTheyWereStored) {
+TEST(Durations, SurviveStorage) {
   for (const DurationFit& fit :
        {fit_durations(lawful(80, 4, 0.1f)), fit_durations(lawful(5, 2, 0.1f)), DurationFit{}}) {
     ByteWriter out;
@@ -104,7 +104,7 @@ TEST(Durations, AreReadAsTheyWereStored) {
   }
 }
 
-TEST(Durations, WhatCannotHaveBeenStoredIsRefused) {
+TEST(Durations, InvalidBytesAreRefused) {
   const DurationFit fit = fit_durations(lawful(80, 4, 0.1f));
   const auto refused = [](const DurationFit& wrong) {
     ByteWriter out;

@@ -6,12 +6,12 @@
 // A record of features, before it is sealed:
 //
 //     u16  kFeatureVersion
-//     text why nothing was measured (empty: it was)
+//     text reason why nothing was measured (empty: it was)
 //     f32  shoulder width, metres
 //     u32  phases, then for each:
 //       f32 seconds
-//       u8  bits: 1 something is known, 2 the left hand, 4 the right hand
-//       only where something is known:
+//       u8  bits: 1 anything known, 2 left hand known, 4 right hand known
+//       only if anything is known:
 //         f32 × 2 distance between the hands at begin and end
 //         f32 × 3 lean, f32 twist of the trunk at begin, the same at end
 //       for each hand that is known, left first:
@@ -25,7 +25,7 @@
 namespace signweave {
 namespace {
 
-// One list of members serves writing, reading and comparing.
+// A single list of members is used for writing, reading and comparing.
 template <typename Hand, typename Number, typename Small>
 void each_of_end(Hand& at, Number number, Small small) {
   for (auto* vector : {&at.position, &at.velocity, &at.acceleration, &at.palm, &at.fingers, &at.elbow}) {
@@ -103,11 +103,11 @@ std::optional<RecordingFeatures> decode_features(ByteReader& in, const Pause& pa
   features.why_not = in.text();
   const auto number = [&](float& value) {
     value = in.number<float>();
-    if (!std::isfinite(value)) in.fail("a feature that is no number");
+    if (!std::isfinite(value)) in.fail("a feature is not finite");
   };
   const auto small = [&](auto& value, auto largest) {
     value = in.number<std::remove_reference_t<decltype(value)>>();
-    if (value > largest) in.fail("a feature that does not exist");
+    if (value > largest) in.fail("a feature has an unknown value");
   };
   number(features.shoulder_width);
   features.phases.resize(in.count(kSmallestPhase));
@@ -116,7 +116,7 @@ std::optional<RecordingFeatures> decode_features(ByteReader& in, const Pause& pa
     if (pause && (count++ & 0xFFU) == 0) pause();
     number(phase.seconds);
     const auto bits = in.number<std::uint8_t>();
-    if (bits != 0 && bits != 3 && bits != 5 && bits != 7) in.fail("bits that do not fit");
+    if (bits != 0 && bits != 3 && bits != 5 && bits != 7) in.fail("the flags of a phase are inconsistent");
     phase.known = (bits & 1) != 0;
     if (!phase.known) continue;
     number(phase.hands_distance_begin);
@@ -133,7 +133,7 @@ std::optional<RecordingFeatures> decode_features(ByteReader& in, const Pause& pa
     noise->resize(in.count(sizeof(float)));
     for (float& one : *noise) {
       number(one);
-      if (one < 0) in.fail("a noise below 0");
+      if (one < 0) in.fail("a noise value is negative");
     }
   }
   in.finish();
@@ -153,7 +153,7 @@ bool finite(const PhaseFeatures& phase) noexcept {
 bool nearly_same(const PhaseFeatures& a, const PhaseFeatures& b) noexcept {
   constexpr float kRounding = 1e-3f;
   if (bits_of(a) != bits_of(b)) return false;
-  // The same numbers in the same order, so that the lists can be held against each other.
+  // The same values in the same order, so that both lists can be compared.
   std::array<float, 160> numbers{};
   const auto same = [&](const HandOver& first, const HandOver& second) {
     std::size_t count = 0;

@@ -6,7 +6,7 @@
 namespace signweave {
 namespace {
 
-/// A motion of single frames of a source.
+/// Returns a motion consisting of single frames of a source.
 template <typename FrameOf>
 Motion sampled(const MotionSource& source, std::int64_t count, const Pause& pause, FrameOf&& frame_of) {
   Motion motion;
@@ -29,7 +29,7 @@ void read_piece(const MotionSource& source, FrameRange frames, Piece& piece) {
 }
 
 SignerModel model_of(const MotionSource& source, const RigNames& names, const Pause& pause) {
-  // The frames that the rig's map and the body look at: of a motion of just these they look at all.
+  // Read the frames that map_rig and signer_body would examine: given a motion of just these, they examine all.
   const std::int64_t frames = source.frame_count();
   const std::int64_t shape = std::min(frames, kShapeFrames);
   SignerModel model;

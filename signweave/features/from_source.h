@@ -17,15 +17,17 @@ namespace signweave {
 
 struct RecordingFeatures;
 
-// Measuring a motion that is not in memory, piece by piece: the numbers are those of measuring the whole, to the bit.
+// Measures a motion that is not in memory, piece by piece. The results are bit-identical to those of measuring the
+// whole motion.
 
-/// Called between pieces of a long work, each of a few milliseconds at most. It may throw to stop the work.
+/// Called between pieces of a long operation, each of which takes a few milliseconds at most. May throw to cancel the
+/// operation.
 using Pause = std::function<void()>;
 
-/// Frames that are worked on between two pauses.
+/// Number of frames processed between two pauses.
 inline constexpr std::int64_t kPiece = 512;
 
-/// Calls `use(FrameRange)` for the pieces of some frames, in order, and `pause` before each.
+/// Calls `use(FrameRange)` for consecutive pieces of `frames`, and `pause` before each.
 template <typename Use>
 void for_pieces(FrameRange frames, const Pause& pause, Use&& use) {
   for (std::int64_t begin = frames.begin; begin < frames.end; begin += kPiece) {
@@ -34,22 +36,23 @@ void for_pieces(FrameRange frames, const Pause& pause, Use&& use) {
   }
 }
 
-/// Some frames of a source as a motion of their own, without scalar tracks; and all that smoothing looks at.
+/// Some frames of a source as a separate motion, without scalar tracks, plus the frames that smoothing needs.
 struct Piece {
   Motion motion;
-  std::int64_t first = 0;  ///< the frame of the source that is the motion's first
+  std::int64_t first = 0;  ///< frame of the source that is the motion's first frame
 };
-/// Reads what measuring some frames (at least one, within the source) looks at. Memory of `piece` is used again.
+/// Reads all frames that measuring `frames` needs (at least one frame, within the source). Reuses the memory of
+/// `piece`.
 void read_piece(const MotionSource& source, FrameRange frames, Piece& piece);
 
-/// What `model_of` gives of the whole motion, which must have a frame. Reads a few frames only.
+/// Same result as `model_of` of the whole motion, which must have a frame. Reads only a few frames.
 SignerModel model_of(const MotionSource& source, const RigNames& names = {}, const Pause& pause = {});
 
-/// What `track_points` gives of the whole motion.
+/// Same result as `track_points` of the whole motion.
 std::vector<PointTrack> track_points(const MotionSource& source, const SignerModel& model, std::span<const Part> parts,
                                      FrameRange range, const Pause& pause = {});
 
-/// What `decode_features` (phase_features.h) gives of all at once.
+/// Same as `decode_features` (phase_features.h), with pauses.
 std::optional<RecordingFeatures> decode_features(ByteReader& in, const Pause& pause);
 
 }  // namespace signweave

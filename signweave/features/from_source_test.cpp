@@ -11,7 +11,7 @@
 namespace signweave {
 namespace {
 
-TEST(FromSource, PiecesOfAMotionGiveTheNumbersOfTheWhole) {
+TEST(FromSource, PiecesOfAMotionGiveTheSameResultsAsTheWhole) {
   for (const auto& [frames, hertz] :
        {std::pair<std::int64_t, std::int64_t>{1'300, 100}, {kPiece, 60}, {kPiece + 1, 60}, {7, 100}, {1, 60}}) {
     SCOPED_TRACE(frames);
@@ -46,7 +46,7 @@ TEST(FromSource, PiecesOfAMotionGiveTheNumbersOfTheWhole) {
   }
 }
 
-TEST(FromSource, APauseMayStopTheWork) {
+TEST(FromSource, APauseMayCancelTheOperation) {
   const MemorySource source(moving(whole_person(), 3 * kPiece, 8));
   const SignerModel model = model_of(source);
   int pauses = 0;
@@ -57,7 +57,7 @@ TEST(FromSource, APauseMayStopTheWork) {
   EXPECT_EQ(pauses, 2);
 }
 
-TEST(FromSource, ReadingWhatIsStoredPausesToo) {
+TEST(FromSource, DecodingPausesToo) {
   RecordingFeatures features;
   features.phases.resize(1'000);
   ByteWriter out;

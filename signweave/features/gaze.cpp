@@ -12,13 +12,13 @@ using Eigen::Vector3f;
 
 constexpr float kDegrees = 180 / std::numbers::pi_v<float>;
 
-/// What one track says of its eye, degrees where it is 1.
+/// The contribution of one track to the gaze of its eye, degrees at value 1.
 struct EyeTrack {
-  std::string_view name;  ///< "@" stands for the side
+  std::string_view name;  ///< "@" is replaced by the side
   float yaw[2];           ///< [Side]
   float pitch;
 };
-// Yaw and pitch of Live Link Face go to the right and down. "In" is towards the nose.
+// Yaw and pitch of Live Link Face are positive to the right and down. "In" is towards the nose.
 constexpr std::array kRotations = {EyeTrack{"@EyeYaw", {-kDegrees, -kDegrees}, 0},
                                    EyeTrack{"@EyePitch", {0, 0}, -kDegrees}};
 constexpr std::array kWeights = {EyeTrack{"eyeLookIn@", {-kLookAcross, kLookAcross}, 0},
@@ -53,15 +53,16 @@ std::vector<GazeSource::Share> shares_of(const EyeTracks& kinds, std::span<const
   return all;
 }
 
-/// Where an eye looks in the axes of the rest pose, as its head sees it.
+/// Returns the direction of an eye in the axes of the rest pose, relative to the head.
 Vector3f look(const GazeSource& from, JointIndex eye, const ModelPose& pose) {
   const Eigen::Quaternionf& head = pose.rotations[static_cast<std::size_t>(from.head)];
   return head.conjugate() * (pose.rotations[static_cast<std::size_t>(eye)] * from.forward);
 }
 
-/// Head and eyes where the skeleton is at rest tell what is left and straight ahead; false where it does not stand.
+/// Determines left and straight ahead from head and eyes in the rest pose; returns false if the rest pose is not
+/// upright.
 bool find_axes(const Skeleton& skeleton, const RigMap& rig, GazeSource& source) {
-  constexpr float kUpright = 0.5f;  // of a direction that has length 1: within 60 degrees
+  constexpr float kUpright = 0.5f;  // component of a unit vector: within 60 degrees
   const ModelPose rest = to_model_space(skeleton, Pose(skeleton).view());
   const auto place = [&](Part part) { return position_of(rig[part], rest); };
   std::optional<Vector3f> left;
@@ -82,7 +83,7 @@ bool find_axes(const Skeleton& skeleton, const RigMap& rig, GazeSource& source) 
   return false;
 }
 
-/// Leaves the eyes that turn at some of a few frames, and none where what they do mostly is no gaze.
+/// Keeps the eyes that rotate in any of a few frames and whose mean direction is plausible as a gaze.
 void keep_captured(const MotionSource& source, GazeSource& from, const Pause& pause) {
   constexpr std::int64_t kFrames = 240;
   constexpr float kTurned = 0.5f / kDegrees;
@@ -148,11 +149,12 @@ std::optional<GazeSource> gaze_source(const MotionSource& source, const RigMap& 
 Gaze gaze_at(const GazeSource& from, const ModelPose& pose) noexcept {
   Gaze gaze;
   for (const JointIndex eye : from.eyes) {
-    const Vector3f way = look(from, eye, pose);
-    const float ahead = way.dot(from.forward);
-    const float across = way.dot(from.left);
+    const Vector3f direction = look(from, eye, pose);
+    const float ahead = direction.dot(from.forward);
+    const float across = direction.dot(from.left);
     gaze.yaw += std::atan2(across, ahead) * kDegrees / static_cast<float>(from.eyes.size());
-    gaze.pitch += std::atan2(way.y(), std::hypot(across, ahead)) * kDegrees / static_cast<float>(from.eyes.size());
+    gaze.pitch +=
+        std::atan2(direction.y(), std::hypot(across, ahead)) * kDegrees / static_cast<float>(from.eyes.size());
   }
   return gaze;
 }

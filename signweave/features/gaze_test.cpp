@@ -16,7 +16,7 @@ namespace {
 
 constexpr float kRadian = std::numbers::pi_v<float> / 180;
 
-/// Where two eyes look at each frame, degrees.
+/// The directions of two eyes at each frame, degrees.
 struct Eyes {
   std::vector<Gaze> left;
   std::vector<Gaze> right;
@@ -37,7 +37,7 @@ Eyes some_eyes(std::mt19937& random, std::size_t frames) {
   return eyes;
 }
 
-/// A person who moves by chance, and whose eyes do as told.
+/// A person with random movements, whose eyes move as given.
 Motion with_joints(const Eyes& eyes) {
   Motion motion = moving(whole_person(), eyes.frames(), 7);
   const auto turned = [](Gaze gaze) {
@@ -66,7 +66,7 @@ void add(Motion& motion, const std::string& name, const std::vector<Gaze>& eye, 
   motion.add_track(std::move(track));
 }
 
-/// The same eyes as Live Link Face has them: radians, to the right and down.
+/// The same eyes as recorded by Live Link Face: radians, positive to the right and down.
 Motion with_rotations(const Eyes& eyes) {
   Motion motion = faceless(eyes.frames());
   add(motion, "leftEyeYaw", eyes.left, [](Gaze gaze) { return -gaze.yaw * kRadian; });
@@ -76,7 +76,7 @@ Motion with_rotations(const Eyes& eyes) {
   return motion;
 }
 
-/// And as weights: "out" is away from the nose.
+/// The same eyes as weights: "out" is away from the nose.
 Motion with_weights(const Eyes& eyes) {
   Motion motion = faceless(eyes.frames());
   const auto up = [](Gaze gaze) { return std::max(gaze.pitch, 0.0f) / kLookUp; };
@@ -94,25 +94,25 @@ Motion with_weights(const Eyes& eyes) {
   return motion;
 }
 
-struct Told {
+struct MeasuredGaze {
   std::optional<GazeFrom> from;
   std::vector<Gaze> gaze;
 };
 
-Told told(const Motion& motion) {
+MeasuredGaze measured_gaze(const Motion& motion) {
   const MemorySource source(motion);
   const std::optional<GazeSource> from = gaze_source(source, rig_of_signer(motion.skeleton()));
   if (!from) return {};
   return {from->from, gaze_over(source, *from, {0, motion.frame_count()})};
 }
 
-TEST(Gaze, LiveLinkFaceTellsRadiansToTheRightAndDown) {
+TEST(Gaze, LiveLinkFaceUsesRadiansToTheRightAndDown) {
   Motion motion = faceless(2);
   motion.add_track({.name = "leftEyeYaw", .values = {-0.1f, 0}});
   motion.add_track({.name = "leftEyePitch", .values = {0, 0.1f}});
   motion.add_track({.name = "rightEyeYaw", .values = {-0.2f, 0}});
   motion.add_track({.name = "rightEyePitch", .values = {0, 0.3f}});
-  const Told result = told(motion);
+  const MeasuredGaze result = measured_gaze(motion);
   ASSERT_EQ(result.from, GazeFrom::eye_tracks);
   EXPECT_NEAR(result.gaze[0].yaw, 8.5944f, 1e-3f);  // 0.15 radians to the left
   EXPECT_EQ(result.gaze[0].pitch, 0);
@@ -128,7 +128,7 @@ TEST(Gaze, AWeightIsAnAngleOfItsEye) {
   motion.add_track({.name = "eyeLookUpLeft", .values = {0, 0.2f, 0}});
   motion.add_track({.name = "eyeLookUpRight", .values = {0, 0.2f, 0}});
   motion.add_track({.name = "eyeLookDownLeft", .values = {0, 0, 0.2f}});
-  const Told result = told(motion);
+  const MeasuredGaze result = measured_gaze(motion);
   ASSERT_EQ(result.from, GazeFrom::look_weights);
   EXPECT_NEAR(result.gaze[0].yaw, 10.5f, 1e-3f);    // (14 + 7) / 2
   EXPECT_NEAR(result.gaze[1].yaw, -10.5f, 1e-3f);   // (0 - 21) / 2
@@ -136,13 +136,13 @@ TEST(Gaze, AWeightIsAnAngleOfItsEye) {
   EXPECT_NEAR(result.gaze[2].pitch, -3.5f, 1e-3f);  // (-7 + 0) / 2
 }
 
-RC_GTEST_PROP(Gaze, TheSameEyesHaveTheSameGazeWhereverItIsToldFrom, (std::uint32_t seed)) {
+RC_GTEST_PROP(Gaze, AllSourcesGiveTheSameGaze, (std::uint32_t seed)) {
   std::mt19937 random(seed);
   const Eyes eyes = some_eyes(random, 8);
   const Motion motions[] = {with_joints(eyes), with_rotations(eyes), with_weights(eyes)};
   const GazeFrom expected[] = {GazeFrom::eye_joints, GazeFrom::eye_tracks, GazeFrom::look_weights};
   for (std::size_t i = 0; i < 3; ++i) {
-    const Told result = told(motions[i]);
+    const MeasuredGaze result = measured_gaze(motions[i]);
     RC_ASSERT(result.from == expected[i]);
     for (std::size_t frame = 0; frame < eyes.left.size(); ++frame) {
       RC_ASSERT(std::abs(result.gaze[frame].yaw - eyes.mean(frame).yaw) < 0.01f);
@@ -151,15 +151,16 @@ RC_GTEST_PROP(Gaze, TheSameEyesHaveTheSameGazeWhereverItIsToldFrom, (std::uint32
   }
 }
 
-RC_GTEST_PROP(Gaze, TheMirrorTurnsItToTheOtherSide, (std::uint32_t seed)) {
+RC_GTEST_PROP(Gaze, MirroringReversesTheYaw, (std::uint32_t seed)) {
   std::mt19937 random(seed);
   const Eyes eyes = some_eyes(random, 8);
   Eyes mirrored{eyes.right, eyes.left};
   for (Gaze& gaze : mirrored.left) gaze.yaw = -gaze.yaw;
   for (Gaze& gaze : mirrored.right) gaze.yaw = -gaze.yaw;
-  const std::pair<Told, Told> pairs[] = {{told(with_joints(eyes)), told(in_mirror(with_joints(eyes)))},
-                                         {told(with_rotations(eyes)), told(with_rotations(mirrored))},
-                                         {told(with_weights(eyes)), told(with_weights(mirrored))}};
+  const std::pair<MeasuredGaze, MeasuredGaze> pairs[] = {
+      {measured_gaze(with_joints(eyes)), measured_gaze(in_mirror(with_joints(eyes)))},
+      {measured_gaze(with_rotations(eyes)), measured_gaze(with_rotations(mirrored))},
+      {measured_gaze(with_weights(eyes)), measured_gaze(with_weights(mirrored))}};
   for (const auto& [plain, other] : pairs) {
     RC_ASSERT(plain.gaze.size() == other.gaze.size());
     for (std::size_t frame = 0; frame < plain.gaze.size(); ++frame) {
@@ -169,23 +170,23 @@ RC_GTEST_PROP(Gaze, TheMirrorTurnsItToTheOtherSide, (std::uint32_t seed)) {
   }
 }
 
-TEST(Gaze, TheBestSourceIsTaken) {
+TEST(Gaze, TheBestSourceIsUsed) {
   const Eyes eyes{{{10, 0}, {-5, 3}}, {{10, 0}, {-5, 3}}};
   Motion motion = with_joints(eyes);
-  EXPECT_EQ(told(motion).from, GazeFrom::eye_joints);
+  EXPECT_EQ(measured_gaze(motion).from, GazeFrom::eye_joints);
   motion.add_track({.name = "jawOpen", .values = {0.5f, 0.5f}});
-  EXPECT_EQ(told(motion).from, GazeFrom::eye_joints) << "a face whose eyes say nothing";
+  EXPECT_EQ(measured_gaze(motion).from, GazeFrom::eye_joints) << "a face without eye data";
   motion.add_track({.name = "eyeLookUpLeft", .values = {0.5f, 0.5f}});
-  EXPECT_EQ(told(motion).from, GazeFrom::look_weights);
+  EXPECT_EQ(measured_gaze(motion).from, GazeFrom::look_weights);
   motion.add_track({.name = "rightEyeYaw", .values = {0.5f, 0.5f}});
-  EXPECT_EQ(told(motion).from, GazeFrom::eye_tracks);
-  EXPECT_NEAR(told(motion).gaze[1].yaw, -28.648f, 1e-2f) << "of the one eye that was captured";
+  EXPECT_EQ(measured_gaze(motion).from, GazeFrom::eye_tracks);
+  EXPECT_NEAR(measured_gaze(motion).gaze[1].yaw, -28.648f, 1e-2f) << "only one eye was captured";
 }
 
-TEST(Gaze, IsThatOfTheHeadWhereverTheBodyStands) {
+TEST(Gaze, IsRelativeToTheHeadWhereverTheBodyIs) {
   const Eyes eyes{{{20, 5}, {-5, 3}}, {{20, 5}, {-5, 3}}};
-  const Told here = told(with_joints(eyes));
-  const Told there = told(placed(with_joints(eyes), 2.1f, {3, 0, -1}));
+  const MeasuredGaze here = measured_gaze(with_joints(eyes));
+  const MeasuredGaze there = measured_gaze(placed(with_joints(eyes), 2.1f, {3, 0, -1}));
   ASSERT_EQ(here.gaze.size(), 2u);
   ASSERT_EQ(there.gaze.size(), 2u);
   for (std::size_t frame = 0; frame < 2; ++frame) {
@@ -195,19 +196,19 @@ TEST(Gaze, IsThatOfTheHeadWhereverTheBodyStands) {
   EXPECT_NEAR(here.gaze[0].yaw, 20, 1e-2f);
 }
 
-TEST(Gaze, EyesThatNeverTurnWereNotCaptured) {
+TEST(Gaze, EyesThatNeverRotateWereNotCaptured) {
   const Eyes still{{{5, 0}, {5, 0}}, {{5, 0}, {5, 0}}};
-  EXPECT_FALSE(told(with_joints(still)).from);
+  EXPECT_FALSE(measured_gaze(with_joints(still)).from);
   const Eyes one{{{5, 0}, {9, 0}}, {{0, 0}, {0, 0}}};
-  const Told result = told(with_joints(one));
+  const MeasuredGaze result = measured_gaze(with_joints(one));
   ASSERT_EQ(result.gaze.size(), 2u);
   EXPECT_NEAR(result.gaze[1].yaw, 9, 1e-2f) << "the other eye does not count";
 }
 
-TEST(Gaze, IsNotToldWhereTheRestPoseTellsNoAhead) {
-  // Eyes that stand across in the rest pose, as where a file's bind pose turns them.
+TEST(Gaze, IsUnknownIfTheRestPoseDefinesNoAhead) {
+  // Eyes that look sideways in the rest pose, for example because of a file's bind pose.
   const Eyes aside{{{80, 0}, {70, 0}}, {{80, 0}, {70, 0}}};
-  EXPECT_FALSE(told(with_joints(aside)).from);
+  EXPECT_FALSE(measured_gaze(with_joints(aside)).from);
   // A skeleton that lies on its back at rest.
   const Eyes eyes{{{20, 5}, {-5, 3}}, {{20, 5}, {-5, 3}}};
   const Motion motion = with_joints(eyes);
@@ -221,14 +222,14 @@ TEST(Gaze, IsNotToldWhereTheRestPoseTellsNoAhead) {
       lying.pose(frame).rotations[joint] = motion.pose(frame).rotations[joint];
     }
   }
-  EXPECT_FALSE(told(lying).from);
-  EXPECT_FALSE(told(faceless(3)).from);
-  EXPECT_FALSE(told(faceless(0)).from);
+  EXPECT_FALSE(measured_gaze(lying).from);
+  EXPECT_FALSE(measured_gaze(faceless(3)).from);
+  EXPECT_FALSE(measured_gaze(faceless(0)).from);
 }
 
-TEST(Gaze, APartIsThatOfTheWhole) {
+TEST(Gaze, APartEqualsThatPartOfTheWhole) {
   std::mt19937 random(5);
-  const Eyes eyes = some_eyes(random, 1'200);  // more than a piece
+  const Eyes eyes = some_eyes(random, 1'200);  // longer than one piece
   for (const Motion& motion : {with_joints(eyes), with_rotations(eyes), with_weights(eyes)}) {
     const MemorySource source(motion);
     const auto from = gaze_source(source, rig_of_signer(motion.skeleton()));
@@ -240,10 +241,10 @@ TEST(Gaze, APartIsThatOfTheWhole) {
   }
 }
 
-TEST(Gaze, WhatIsNoNumberIsNoGaze) {
+TEST(Gaze, NonFiniteValuesGiveNonFiniteGaze) {
   Motion motion = faceless(1);
   motion.add_track({.name = "leftEyeYaw", .values = {std::numeric_limits<float>::quiet_NaN()}});
-  EXPECT_TRUE(std::isnan(told(motion).gaze[0].yaw));
+  EXPECT_TRUE(std::isnan(measured_gaze(motion).gaze[0].yaw));
 }
 
 TEST(Gaze, StopsWhenThePauseThrows) {

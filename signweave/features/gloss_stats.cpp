@@ -11,7 +11,7 @@
 namespace signweave {
 namespace {
 
-/// Where its meaning is: a sign without stroke has no better place than all of it.
+/// Returns the span that carries the meaning; for a sign without a stroke, all of it.
 TimeSpan middle_of(const Sign& sign) {
   return sign.stroke_span().value_or(sign.span);
 }
@@ -60,7 +60,7 @@ std::vector<NgramStats> ngrams_of(std::span<const std::vector<Sign>> recordings,
     std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
       return signs[a].tier != signs[b].tier ? signs[a].tier < signs[b].tier : signs[a].span.begin < signs[b].span.begin;
     });
-    std::size_t run = 0;  // signs up to here that follow each other
+    std::size_t run = 0;  // number of consecutive signs up to here
     for (std::size_t i = 0; i < order.size(); ++i) {
       run = i > 0 && follows(signs[order[i - 1]], signs[order[i]]) ? run + 1 : 1;
       if (run < length) continue;

@@ -11,7 +11,7 @@ namespace {
 
 using testing::ElementsAre;
 
-/// A B A B, a rest, A B; strokes 100 ms after the begin of a sign and 100 ms before its end.
+/// A B A B, a rest, A B; each stroke starts 100 ms after the begin of its sign and ends 100 ms before its end.
 std::vector<Sign> two_units() {
   std::vector<Sign> signs;
   Milliseconds at = 0ms;
@@ -36,7 +36,7 @@ TEST(GlossStats, CountsTokensAndTheirDurations) {
   EXPECT_DOUBLE_EQ(of[1].stroke.most, 300);
 }
 
-TEST(GlossStats, AnInferredSignTellsNothingOfStrokes) {
+TEST(GlossStats, AnInferredSignHasNoStrokeStatistics) {
   const std::vector<Sign> signs = {
       {.gloss = "A", .span = {0ms, 500ms}, .phases = {{PhaseKind::stroke, {0ms, 500ms}, "", ""}}, .inferred = true}};
   const std::vector<GlossStats> of = glosses_of(signs);
@@ -61,7 +61,7 @@ TEST(GlossStats, NgramsEndAtARest) {
   EXPECT_TRUE(ngrams_of(recordings, 5).empty());
 }
 
-TEST(GlossStats, NgramsAreNeitherOfTwoTiersNorOfTwoRecordings) {
+TEST(GlossStats, NgramsDoNotSpanTiersOrRecordings) {
   std::vector<Sign> signs = two_units();
   const std::vector<std::vector<Sign>> apart = {{signs[0]}, {signs[1]}};
   EXPECT_TRUE(ngrams_of(apart, 2).empty());

@@ -12,15 +12,15 @@ namespace {
 
 using Eigen::Vector3f;
 
-/// One side of the body: what is measured, and what it is told from.
+/// One side of the body: its measured values and their sources.
 struct Arm {
   Side side;
   HandPlaces places;
   PartPlace elbow;
   bool measured = false;
-  std::vector<Vector3f> path;  ///< [frame from the window's first] signer-centred
-  HandPoints points;           ///< of the frame at hand
-  HandShell shell;             ///< likewise
+  std::vector<Vector3f> path;  ///< [frame - first of the window] signer-centred
+  HandPoints points;           ///< of the current frame
+  HandShell shell;             ///< of the current frame
 };
 
 float curvature_of(const PathDerivatives& at) {
@@ -28,7 +28,7 @@ float curvature_of(const PathDerivatives& at) {
   return speed < kLeastSpeed ? 0 : at.velocity.cross(at.acceleration).norm() / (speed * speed * speed);
 }
 
-/// The joints that are looked at: hands, shoulders and what the bodies' shells hang on.
+/// The joints used: hands, shoulders and those that position the bodies' shells.
 JointChains chains_of(const Motion& motion, const SignerModel& model, const std::array<Arm, 2>& arms) {
   std::vector<JointIndex> joints;
   for (const Part part :
@@ -56,7 +56,7 @@ TrunkFrame trunk_of(const RigMap& rig, const SignerSpace& space, const ModelPose
   return trunk;
 }
 
-/// All but what is told from the path.
+/// Measures everything that does not need the path.
 void measure_pose(const Arm& arm, const Arm& other, const BodyShell& body_shell, const SignerSpace& space,
                   const SignerBody& body, HandFrame& out) {
   if (arm.places.why_no_fingers().empty()) {

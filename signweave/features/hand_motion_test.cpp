@@ -25,7 +25,7 @@ HandMotion measured(const Motion& motion) {
   return measure_hands(motion, model_of_arm(motion), {0, motion.frame_count()});
 }
 
-/// Equal to the bit, in all fields.
+/// Bit-identical in all fields.
 bool same_bits(const HandFrame& a, const HandFrame& b) {
   const auto bytes = [](const auto& one) { return std::as_bytes(std::span(&one, 1)); };
   const auto same = [&](const auto& one, const auto& other) { return std::ranges::equal(bytes(one), bytes(other)); };
@@ -35,7 +35,7 @@ bool same_bits(const HandFrame& a, const HandFrame& b) {
          a.contact == b.contact;
 }
 
-/// The greatest difference in signer space, `scale` that of velocities and accelerations.
+/// The maximum difference in signer space; `scale` applies to velocities and accelerations.
 float difference(const HandFrame& a, const HandFrame& b, float scale = 1) {
   return std::max({(a.position - b.position).norm(), (a.velocity - b.velocity / scale).norm() / 10,
                    (a.acceleration - b.acceleration / scale).norm() / 1000, (a.palm - b.palm).norm(),
@@ -43,7 +43,7 @@ float difference(const HandFrame& a, const HandFrame& b, float scale = 1) {
                    distance(a.handshape, b.handshape)});
 }
 
-RC_GTEST_PROP(MeasureHands, APartEqualsTheWholeToTheBit, ()) {
+RC_GTEST_PROP(MeasureHands, APartIsBitIdenticalToTheWhole, ()) {
   const auto frames = *rc::gen::inRange<std::int64_t>(1, 60);
   const Motion motion = moving(whole_person(), frames, *rc::gen::arbitrary<unsigned>(),
                                {*rc::gen::element<std::int64_t>(10, 30, 60, 120), 1});
@@ -63,7 +63,7 @@ RC_GTEST_PROP(MeasureHands, APartEqualsTheWholeToTheBit, ()) {
   }
 }
 
-RC_GTEST_PROP(MeasureHands, DoesNotCareWhereTheSignerStandsAndFaces, ()) {
+RC_GTEST_PROP(MeasureHands, DoesNotDependOnThePositionAndHeadingOfTheSigner, ()) {
   const Motion here = moving(whole_person(), 20, *rc::gen::arbitrary<unsigned>());
   const auto number = [](int most) { return static_cast<float>(*rc::gen::inRange(-most, most)) / 10; };
   const Motion there = placed(here, number(31), {number(20), number(2), number(20)});
@@ -95,7 +95,7 @@ RC_GTEST_PROP(MeasureHands, ScalesVelocitiesWithTheBodyAndNotPositions, ()) {
   }
 }
 
-RC_GTEST_PROP(MeasureHands, SwapsTheHandsInTheMirror, ()) {
+RC_GTEST_PROP(MeasureHands, MirroringSwapsTheHands, ()) {
   const Motion motion = moving(whole_person(), 20, *rc::gen::arbitrary<unsigned>());
   const HandMotion a = measured(motion);
   const HandMotion b = measured(in_mirror(motion));
@@ -114,7 +114,7 @@ RC_GTEST_PROP(MeasureHands, SwapsTheHandsInTheMirror, ()) {
   }
 }
 
-TEST(MeasureHands, TellsHowTheTrunkLeansAndTwists) {
+TEST(MeasureHands, MeasuresLeanAndTwistOfTheTrunk) {
   Motion motion(whole_person(), {100, 1}, 3);
   const auto spine = static_cast<std::size_t>(*motion.skeleton().find("Spine"));
   motion.pose(1).rotations[spine] = AngleAxisf(0.3f, Vector3f::UnitX());  // forwards
@@ -128,7 +128,7 @@ TEST(MeasureHands, TellsHowTheTrunkLeansAndTwists) {
   EXPECT_NEAR(hands.trunk[1].twist, 0, 1e-3f);
   EXPECT_NEAR(std::abs(hands.trunk[2].twist), std::sin(0.4f), 0.02f);
   EXPECT_FALSE(hands.hands[0].frames[0].elbow.isZero());
-  EXPECT_GT(hands.hands[0].frames[0].elbow.x(), 0.4f);  // of the left arm, on the left
+  EXPECT_GT(hands.hands[0].frames[0].elbow.x(), 0.4f);  // the left arm's elbow is on the left
   SignerModel model = model_of_arm(motion);
   model.rig[Part::pelvis] = {};
   model.rig[Part::left_thigh] = {};
@@ -139,7 +139,7 @@ TEST(MeasureHands, TellsHowTheTrunkLeansAndTwists) {
   EXPECT_TRUE(without.hands[0].frames[0].elbow.isZero());
 }
 
-/// The rest pose with one forearm that turns evenly about the elbow, forwards: a circle whose sizes are known.
+/// The rest pose with one forearm that rotates uniformly about the elbow, forwards: a circle of known size.
 TEST(MeasureHands, FindsSpeedAccelerationAndCurvatureOfACircle) {
   Motion motion(whole_person(), {100, 1}, 60);
   const JointIndex forearm = *motion.skeleton().find("LeftForeArm");
@@ -177,7 +177,7 @@ TEST(MeasureHands, MeasuresOneFrame) {
   EXPECT_EQ(right.contact, Contact::none);
 }
 
-TEST(MeasureHands, TellsWhyThereIsNothing) {
+TEST(MeasureHands, ReportsWhyNothingIsMeasured) {
   const Motion motion = moving(whole_person(), 10);
   SignerModel model = model_of_arm(motion);
   const auto measure = [&] { return measure_hands(motion, model, {0, 10}); };
@@ -190,7 +190,7 @@ TEST(MeasureHands, TellsWhyThereIsNothing) {
   EXPECT_TRUE(measure().hands_distance.empty());
 
   model = model_of_arm(motion);
-  model.rig[Part::left_upper_arm] = {};  // one arm: no line between shoulders
+  model.rig[Part::left_upper_arm] = {};  // one arm: no shoulder line
   model.body = signer_body(motion, model.rig);
   for (const auto& hand : measure().hands) {
     EXPECT_EQ(hand.why_not, "no left shoulder: name it in a mapping file");
@@ -202,7 +202,7 @@ TEST(MeasureHands, TellsWhyThereIsNothing) {
   EXPECT_EQ(measure().hands[0].why_not, "the shoulders are in one place, or the motion has no frames");
 }
 
-TEST(MeasureHands, MeasuresAHandWithoutFingersByItsWrist) {
+TEST(MeasureHands, MeasuresAHandWithoutFingersAtItsWrist) {
   const HandMotion hands = measured(moving(whole_person(1, false), 10));
   for (const auto& hand : hands.hands) {
     EXPECT_TRUE(hand.why_no_fingers.ends_with("fingers"));
@@ -237,13 +237,13 @@ TEST(MeasureHands, MeasuresAHeadlessBodyAndOneOf300Joints) {
   }
 }
 
-TEST(MeasureHands, SeesHandsTouchEachOtherAndTheBody) {
+TEST(MeasureHands, DetectsContactBetweenHandsAndWithTheBody) {
   Motion motion(whole_person(), {60, 1}, 1);
   const auto turn = [&](const char* name, float degrees, const Vector3f& axis) {
     motion.pose(0).rotations[static_cast<std::size_t>(*motion.skeleton().find(name))] =
         AngleAxisf(degrees * std::numbers::pi_v<float> / 180, axis);
   };
-  // Upper arms forward and down, forearms inwards: the hands before the chest, palm to palm or nearly.
+  // Upper arms forward and down, forearms inwards: the hands in front of the chest, almost palm to palm.
   turn("LeftArm", -90, Vector3f::UnitY());
   turn("RightArm", 90, Vector3f::UnitY());
   EXPECT_EQ(measured(motion).hands[0].frames[0].contact, Contact::none);
@@ -251,7 +251,7 @@ TEST(MeasureHands, SeesHandsTouchEachOtherAndTheBody) {
   turn("RightForeArm", 45, Vector3f::UnitY());
   EXPECT_EQ(measured(motion).hands[0].frames[0].contact, Contact::hands);
   EXPECT_EQ(measured(motion).hands[1].frames[0].contact, Contact::hands);
-  // The left forearm bent right back: the hand at its own shoulder, which is of the torso.
+  // The left forearm fully bent: the hand at its own shoulder, which belongs to the torso.
   turn("LeftForeArm", 165, -Vector3f::UnitY());
   EXPECT_TRUE(has(measured(motion).hands[0].frames[0].contact, Contact::torso));
   EXPECT_EQ(measured(motion).hands[1].frames[0].contact, Contact::none);

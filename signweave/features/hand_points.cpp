@@ -22,7 +22,7 @@ float angle_between(const Vector3f& a, const Vector3f& b) {
   return std::atan2(a.cross(b).norm(), a.dot(b));
 }
 
-/// The knuckle in the middle of the hand.
+/// Returns the middle finger's knuckle, or the mean of the knuckles without one.
 Vector3f middle_knuckle(const HandPoints& hand) {
   if (hand.finger(Finger::middle).count > 0) return hand.finger(Finger::middle).points[0];
   Vector3f sum = Vector3f::Zero();
@@ -35,7 +35,7 @@ Vector3f middle_knuckle(const HandPoints& hand) {
   return count == 0 ? hand.wrist : Vector3f(sum / count);
 }
 
-/// Of the joints beyond the first, as a share of a right angle.
+/// Returns the mean flexion of the joints beyond the first, as a fraction of a right angle.
 float bend_beyond(const HandPoints::OneFinger& finger) {
   if (finger.count < 3) return 0;
   float sum = 0;
@@ -45,7 +45,7 @@ float bend_beyond(const HandPoints::OneFinger& finger) {
   return std::min(sum / static_cast<float>(finger.count - 2) / kRight, 1.0f);
 }
 
-/// The first and the last finger beside the thumb that there are; null where there is none.
+/// The first and the last existing finger besides the thumb; null if there is none.
 struct OuterFingers {
   const HandPoints::OneFinger* first = nullptr;
   const HandPoints::OneFinger* last = nullptr;
@@ -71,15 +71,15 @@ HandPlaces::HandPlaces(const RigMap& rig, Side side) : wrist_(rig[of(side, Part:
       const PartPlace& place = rig[finger_part(side, finger, static_cast<FingerPoint>(point))];
       if (place.known()) row.places[row.count++] = place;
     }
-    // One point tells no direction, and what follows a missing knuckle is no finger.
+    // A single point has no direction, and points without a knuckle do not form a finger.
     if (row.count < 2 || (first > 0 && !rig.has(finger_part(side, finger, FingerPoint::proximal)))) row.count = 0;
   }
-  const auto beside_thumb =
+  const auto without_thumb =
       std::count_if(fingers_.begin() + 1, fingers_.end(), [](auto& row) { return row.count > 0; });
-  if (beside_thumb == 0) {
+  if (without_thumb == 0) {
     why_no_fingers_ = fmt::format("no {} fingers", side == Side::left ? "left" : "right");
-  } else if (beside_thumb == 1 && fingers_[0].count == 0) {
-    why_no_fingers_ = fmt::format("only one {} finger: a palm takes two", side == Side::left ? "left" : "right");
+  } else if (without_thumb == 1 && fingers_[0].count == 0) {
+    why_no_fingers_ = fmt::format("only one {} finger: a palm needs two", side == Side::left ? "left" : "right");
   }
 }
 
@@ -121,7 +121,7 @@ HandAxes axes_of(const HandPoints& hand, Side side) noexcept {
 
 Handshape handshape_of(const HandPoints& hand, const HandAxes& axes) noexcept {
   Handshape shape;
-  std::array<float, kFingers.size()> aside{};  // radians to the thumb's side
+  std::array<float, kFingers.size()> aside{};  // radians, positive to the thumb's side
   for (std::size_t i = 0; i < hand.fingers.size(); ++i) {
     const HandPoints::OneFinger& finger = hand.fingers[i];
     if (finger.count == 0) continue;
@@ -135,7 +135,7 @@ Handshape handshape_of(const HandPoints& hand, const HandAxes& axes) noexcept {
     aside[i] = thumb ? std::atan2(whole.dot(axes.thumb), whole.dot(axes.fingers))
                      : std::asin(std::clamp(bone.dot(axes.thumb), -1.0f, 1.0f));
   }
-  // Spread: of each finger from the next one towards the thumb that there is.
+  // Spread: the angle of each finger from the next existing one towards the thumb.
   std::size_t before = kFingers.size();
   for (std::size_t i = 0; i < hand.fingers.size(); ++i) {
     if (hand.fingers[i].count == 0) continue;
@@ -145,7 +145,7 @@ Handshape handshape_of(const HandPoints& hand, const HandAxes& axes) noexcept {
     }
     before = i;
   }
-  // How far the thumb's end lies across the palm.
+  // The position of the thumb's tip across the palm.
   const HandPoints::OneFinger& thumb = hand.fingers[0];
   const auto [first, last] = outer_fingers(hand);
   if (thumb.count > 0 && first != nullptr && first != last) {
@@ -154,17 +154,17 @@ Handshape handshape_of(const HandPoints& hand, const HandAxes& axes) noexcept {
     const float at = thumb.points[thumb.count - 1].dot(axes.thumb);
     if (begin - end > 1e-6f) shape.values[2] = std::clamp((begin - at) / (begin - end), 0.0f, 1.0f);
   }
-  // What the rig lacks follows its neighbour.
-  std::array<bool, kFingers.size()> told{};
-  for (std::size_t i = 1; i < told.size(); ++i) told[i] = hand.fingers[i].count > 0;
+  // Missing fingers copy their neighbour.
+  std::array<bool, kFingers.size()> known{};
+  for (std::size_t i = 1; i < known.size(); ++i) known[i] = hand.fingers[i].count > 0;
   const auto follow = [&](std::size_t finger, std::size_t neighbour) {
-    if (told[finger] || !told[neighbour]) return;
+    if (known[finger] || !known[neighbour]) return;
     std::copy_n(shape.values.begin() + static_cast<std::ptrdiff_t>(3 * neighbour), 3,
                 shape.values.begin() + static_cast<std::ptrdiff_t>(3 * finger));
-    told[finger] = true;
+    known[finger] = true;
   };
-  for (std::size_t i = 2; i < told.size(); ++i) follow(i, i - 1);
-  for (std::size_t i = told.size() - 1; i > 1; --i) follow(i - 1, i);
+  for (std::size_t i = 2; i < known.size(); ++i) follow(i, i - 1);
+  for (std::size_t i = known.size() - 1; i > 1; --i) follow(i - 1, i);
   return shape;
 }
 

@@ -16,7 +16,7 @@ using Eigen::Vector3f;
 constexpr float kDegree = std::numbers::pi_v<float> / 180;
 constexpr std::size_t kKnuckle = 0, kBeyond = 1, kSpread = 2;
 
-/// A hand of the test person, whose fingers bend about z and spread about y: palm down, fingers along x.
+/// A hand of the test person: fingers bend about z and spread about y, palm down, fingers along x.
 struct MadeHand {
   Side side = Side::left;
   std::shared_ptr<const Skeleton> skeleton = whole_person();
@@ -62,7 +62,7 @@ TEST(HandAxes, PointOutOfBothPalmsAndToBothThumbs) {
   }
 }
 
-TEST(HandAxes, TurnWithTheHand) {
+TEST(HandAxes, RotateWithTheHand) {
   for (const Side side : kSides) {
     MadeHand hand{.side = side};
     const float s = side == Side::left ? 1 : -1;
@@ -77,7 +77,7 @@ TEST(HandAxes, TurnWithTheHand) {
   }
 }
 
-TEST(HandshapeOf, TellsHowFarEachFingerBends) {
+TEST(HandshapeOf, MeasuresTheFlexionOfEachFinger) {
   for (const Side side : kSides) {
     MadeHand hand{.side = side};
     EXPECT_NEAR(hand.value(Finger::index, kKnuckle), 0, 0.01f);
@@ -97,7 +97,7 @@ TEST(HandshapeOf, TellsHowFarEachFingerBends) {
   }
 }
 
-TEST(HandshapeOf, TellsSpreadWhetherFingersAreBentOrNot) {
+TEST(HandshapeOf, MeasuresSpreadOfStraightAndBentFingers) {
   for (const Side side : kSides) {
     MadeHand hand{.side = side};
     EXPECT_NEAR(hand.value(Finger::middle, kSpread), 0, 0.01f);
@@ -114,10 +114,10 @@ TEST(HandshapeOf, TellsSpreadWhetherFingersAreBentOrNot) {
   }
 }
 
-TEST(HandshapeOf, TellsWhereTheThumbIs) {
+TEST(HandshapeOf, MeasuresThePositionOfTheThumb) {
   MadeHand hand;
   const float away = hand.value(Finger::index, kSpread);
-  EXPECT_NEAR(away, std::atan2(2.5f, 3.0f) * 2 / std::numbers::pi_v<float>, 0.02f);  // as it grows
+  EXPECT_NEAR(away, std::atan2(2.5f, 3.0f) * 2 / std::numbers::pi_v<float>, 0.02f);  // its natural position
   EXPECT_EQ(hand.value(Finger::thumb, kSpread), 0);
   const auto joint =
       static_cast<std::size_t>(hand.rig[finger_part(Side::left, Finger::thumb, FingerPoint::proximal)].joint);
@@ -139,11 +139,11 @@ TEST(Openness, FallsFromAFlatHandToAFist) {
   EXPECT_NEAR(hand.openness(), 0.5f, 0.02f);
   hand.set_all(90, 90);
   EXPECT_NEAR(hand.openness(), 0, 0.01f);
-  hand.set(Finger::index, 0, 0);  // one of four points
+  hand.set(Finger::index, 0, 0);  // one of four fingers
   EXPECT_NEAR(hand.openness(), 0.25f, 0.02f);
 }
 
-TEST(Handshape, OfBothHandsIsTheSameInTheMirror) {
+TEST(Handshape, IsTheSameForMirroredHands) {
   MadeHand left{.side = Side::left};
   MadeHand right{.side = Side::right};
   for (MadeHand* hand : {&left, &right}) {
@@ -162,7 +162,7 @@ TEST(Handshape, OfBothHandsIsTheSameInTheMirror) {
 TEST(HandshapeOf, IsTheSameForRigsWithOtherLocalAxes) {
   MadeHand hand;
   hand.set(Finger::index, 30, 50, 10);
-  // The same points from a rig whose finger joints are turned against their bones.
+  // The same points from a rig whose finger joints are rotated relative to their bones.
   const Quaternionf skew(AngleAxisf(1.1f, Vector3f(1, 2, 3).normalized()));
   std::vector<Joint> joints(hand.skeleton->joints().begin(), hand.skeleton->joints().end());
   std::vector<Tip> tips(hand.skeleton->tips().begin(), hand.skeleton->tips().end());
@@ -183,7 +183,7 @@ TEST(HandshapeOf, IsTheSameForRigsWithOtherLocalAxes) {
   EXPECT_LT(distance(hand.shape(), other.shape()), 1e-5f);
 }
 
-TEST(HandPlaces, LetsWhatTheRigLacksFollowItsNeighbour) {
+TEST(HandPlaces, MissingFingersCopyTheirNeighbour) {
   MadeHand hand;
   hand.set(Finger::ring, 60, 30);
   for (const FingerPoint point :
@@ -197,7 +197,7 @@ TEST(HandPlaces, LetsWhatTheRigLacksFollowItsNeighbour) {
   EXPECT_LT((hand.axes().palm - Vector3f(0, -1, 0)).norm(), 1e-5f);
 }
 
-TEST(HandPlaces, SaysWhyThereAreNoFingers) {
+TEST(HandPlaces, ReportsWhyThereAreNoFingers) {
   MadeHand hand;
   for (const Finger finger : kFingers) {
     if (finger == Finger::middle) continue;
@@ -205,7 +205,7 @@ TEST(HandPlaces, SaysWhyThereAreNoFingers) {
       hand.rig[finger_part(Side::left, finger, static_cast<FingerPoint>(point))] = {};
     }
   }
-  EXPECT_EQ(HandPlaces(hand.rig, Side::left).why_no_fingers(), "only one left finger: a palm takes two");
+  EXPECT_EQ(HandPlaces(hand.rig, Side::left).why_no_fingers(), "only one left finger: a palm needs two");
   hand.rig[finger_part(Side::left, Finger::middle, FingerPoint::proximal)] = {};
   EXPECT_EQ(HandPlaces(hand.rig, Side::left).why_no_fingers(), "no left fingers");
   const HandPoints points = hand.points();

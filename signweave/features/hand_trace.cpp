@@ -9,19 +9,19 @@
 // A trace, before it is sealed:
 //
 //     u16  kTraceVersion
-//     text why there is nothing (empty: there is)
+//     text reason why nothing was measured (empty: it was)
 //     i64  numerator, denominator of the motion's rate
 //     i64  frames, step
 //     f32  shoulder width, metres; f32 × 7 lower borders of the heights from waist up; f32 near reach
-//     u8   bits of the points that there are, left palm lowest
-//     for each of them: 16 bytes a sample (TraceSample)
+//     u8   bits of the existing points, left palm lowest
+//     for each of them: 16 bytes per sample (TraceSample)
 
 namespace signweave {
 namespace {
 
 using Eigen::Vector3f;
 
-/// Of a frame whose numbers are none.
+/// Marks a frame with non-finite values.
 constexpr std::int16_t kNoNumber = std::numeric_limits<std::int16_t>::min();
 constexpr float kLargest = std::numeric_limits<std::int16_t>::max();
 constexpr float kOpenness = 127;
@@ -91,7 +91,7 @@ std::int64_t step_for(FrameRate rate) noexcept {
 constexpr std::array kTips = {finger_part(Side::left, Finger::index, FingerPoint::tip),
                               finger_part(Side::right, Finger::index, FingerPoint::tip)};
 
-/// What is not drawn is not kept either.
+/// Keeps only the members that are stored.
 SignerBody shape_of(const SignerBody& body) {
   return {.shoulder_width = body.shoulder_width, .heights = body.heights, .near_reach = body.near_reach};
 }
@@ -133,8 +133,8 @@ void HandTrace::track(TracePoint point, FrameRange range, PointTrack& out) const
 
 namespace {
 
-/// Traces what `piece_of(FrameRange, use)` gives: it calls `use(motion, first)` with a motion that holds what measuring
-/// these frames looks at, and which frame its first one is.
+/// Traces the motion provided by `piece_of(FrameRange, use)`, which calls `use(motion, first)` with a motion that
+/// contains all frames needed to measure the range, and the index of its first frame.
 template <typename PieceOf>
 HandTrace trace_pieces(FrameRate rate, std::int64_t frames, const SignerModel& model, const Pause& pause,
                        PieceOf&& piece_of) {
@@ -167,7 +167,7 @@ HandTrace trace_pieces(FrameRate rate, std::int64_t frames, const SignerModel& m
       }
     }
   };
-  // Some at a time: what is measured of a frame is large.
+  // Piece by piece, because the measurements of a frame are large.
   for_pieces({0, frames}, pause, [&](FrameRange block) {
     piece_of(block, [&](const Motion& motion, std::int64_t first) { add(motion, first, block); });
   });
@@ -213,14 +213,14 @@ std::optional<HandTrace> decode_trace(ByteReader& in, const Pause& pause) {
   trace.rate.denominator = in.number<std::int64_t>();
   trace.frames = in.number<std::int64_t>();
   trace.step = in.number<std::int64_t>();
-  if (trace.rate.numerator <= 0 || trace.rate.denominator <= 0) in.fail("a rate that is none");
+  if (trace.rate.numerator <= 0 || trace.rate.denominator <= 0) in.fail("the frame rate is not positive");
   if (trace.frames < 0 || trace.frames > std::numeric_limits<std::int64_t>::max() / 2 || trace.step < 1 ||
       trace.step > std::numeric_limits<std::int32_t>::max()) {
-    in.fail("frames that cannot be");
+    in.fail("the frame count or the step is out of range");
   }
   const auto number = [&](float& value) {
     value = in.number<float>();
-    if (!std::isfinite(value)) in.fail("a size that is no number");
+    if (!std::isfinite(value)) in.fail("a body size is not finite");
   };
   number(trace.shoulder_width);
   trace.body.shoulder_width = trace.shoulder_width;
@@ -228,9 +228,9 @@ std::optional<HandTrace> decode_trace(ByteReader& in, const Pause& pause) {
   for (std::size_t i = 1; i < trace.body.heights.size(); ++i) number(trace.body.heights[i]);
   number(trace.body.near_reach);
   const auto bits = in.number<std::uint8_t>();
-  if (bits >> kTracePoints != 0) in.fail("points that do not exist");
+  if (bits >> kTracePoints != 0) in.fail("it has unknown points");
   const std::size_t samples = trace.samples();
-  if (samples > in.left() / sizeof(TraceSample) && bits != 0) in.fail("fewer samples than frames");
+  if (samples > in.left() / sizeof(TraceSample) && bits != 0) in.fail("it has too few samples");
   for (std::size_t i = 0; i < kTracePoints; ++i) {
     if ((bits >> i & 1U) == 0) continue;
     if (pause) pause();
@@ -238,7 +238,7 @@ std::optional<HandTrace> decode_trace(ByteReader& in, const Pause& pause) {
     trace.points[i].resize(samples);
     if (samples > 0) std::memcpy(trace.points[i].data(), bytes.data(), bytes.size());
     for (const TraceSample& sample : trace.points[i]) {
-      if ((sample.state >> 10U & 7U) == 7 || sample.state >> 13U == 7) in.fail("a facing that does not exist");
+      if ((sample.state >> 10U & 7U) == 7 || sample.state >> 13U == 7) in.fail("a facing is unknown");
     }
   }
   in.finish();

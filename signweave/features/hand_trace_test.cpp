@@ -21,7 +21,7 @@ SignerModel model_for(const Motion& motion) {
   return model;
 }
 
-TEST(HandTrace, SaysWhatWasMeasuredWithinItsSteps) {
+TEST(HandTrace, MatchesTheMeasurementWithinItsResolution) {
   const Motion motion = moving(whole_person(), 150, 3, {60, 1});
   const SignerModel model = model_for(motion);
   const HandTrace trace = trace_hands(motion, model);
@@ -60,12 +60,12 @@ TEST(HandTrace, KeepsAtMostSixtySamplesASecondAndTheLastFrame) {
   for (const std::size_t kept : {0U, 2U, 96U, 97U}) {
     EXPECT_LE((track[kept].position - frames[kept].position).norm(), TraceSample::kPosition);
   }
-  // Between them half way.
+  // Halfway between two samples.
   const Vector3f middle = 0.5f * (frames[10].position + frames[12].position);
   EXPECT_LE((track[11].position - middle).norm(), TraceSample::kPosition);
 }
 
-TEST(HandTrace, OverSomeFramesItGivesTheNumbersOfTheFeatures) {
+TEST(HandTrace, OverSomeFramesItGivesTheValuesOfTheFeatures) {
   const Motion motion = moving(whole_person(), 120, 7, {60, 1});
   const SignerModel model = model_for(motion);
   const HandMotion measured = measure_hands(motion, model, {0, 120});
@@ -85,7 +85,7 @@ TEST(HandTrace, OverSomeFramesItGivesTheNumbersOfTheFeatures) {
   }
 }
 
-TEST(HandTrace, WhatIsStoredReadsBack) {
+TEST(HandTrace, SurvivesStorage) {
   const Motion motion = moving(whole_person(), 40, 9, {25, 1});
   const HandTrace trace = trace_hands(motion, model_for(motion));
   ByteWriter out;
@@ -109,7 +109,7 @@ TEST(HandTrace, WhatIsStoredReadsBack) {
   EXPECT_FALSE(decode_trace(later));
 }
 
-/// Throws as reading `trace` from its own bytes does.
+/// Decodes the encoded `trace`, and throws what that throws.
 void read_back(const HandTrace& trace) {
   ByteWriter out;
   encode(trace, out);
@@ -117,7 +117,7 @@ void read_back(const HandTrace& trace) {
   decode_trace(in);
 }
 
-TEST(HandTrace, FramesThatCannotBeAreRefused) {
+TEST(HandTrace, ImpossibleFrameCountsAreRefused) {
   const auto damaged = [](std::int64_t frames, std::int64_t step) {
     return HandTrace{.rate = {25, 1}, .frames = frames, .step = step};
   };
@@ -130,20 +130,21 @@ TEST(HandTrace, FramesThatCannotBeAreRefused) {
                                      {100, std::int64_t{std::numeric_limits<std::int32_t>::max()} + 1}}) {
     const HandTrace trace = damaged(frames, step);
     EXPECT_THAT([&] { read_back(trace); },
-                testing::Throws<Error>(testing::Property(&Error::what, testing::HasSubstr("frames that cannot be"))))
+                testing::Throws<Error>(
+                    testing::Property(&Error::what, testing::HasSubstr("the frame count or the step is out of range"))))
         << frames << ' ' << step;
   }
 }
 
-TEST(HandTrace, MoreFramesThanSamplesAreRefusedBeforeTheyTakeMemory) {
+TEST(HandTrace, TooFewSamplesAreRefusedBeforeAllocation) {
   HandTrace trace{.rate = {25, 1}, .frames = 5, .step = 1};
   trace.points[1].resize(5);
   EXPECT_NO_THROW(read_back(trace));
-  // Of 2^60 samples the bytes are 2^64, which is none at all in 64 bits.
+  // 2^60 samples have 2^64 bytes, which is 0 in 64-bit arithmetic.
   for (const std::int64_t frames : {std::int64_t{6}, std::int64_t{1} << 60}) {
     trace.frames = frames;
-    EXPECT_THAT([&] { read_back(trace); }, testing::Throws<Error>(testing::Property(
-                                               &Error::what, testing::HasSubstr("fewer samples than frames"))))
+    EXPECT_THAT([&] { read_back(trace); },
+                testing::Throws<Error>(testing::Property(&Error::what, testing::HasSubstr("it has too few samples"))))
         << frames;
   }
 }
@@ -168,7 +169,7 @@ RC_GTEST_PROP(HandTrace, DamagedBytesAreRefusedOrRead, (std::uint32_t seed)) {
   }
 }
 
-TEST(HandTrace, WithoutShouldersItSaysWhy) {
+TEST(HandTrace, WithoutShouldersItGivesTheReason) {
   const Motion motion = moving(whole_person(), 10, 1);
   SignerModel model = model_for(motion);
   model.rig[Part::left_upper_arm] = {};
@@ -198,7 +199,7 @@ TEST(HandTrace, AHandThatTheRigLacksIsNotTraced) {
   EXPECT_EQ(decode_trace(in)->points, trace.points);
 }
 
-TEST(HandTrace, NumbersThatAreNoneStayNone) {
+TEST(HandTrace, NonFiniteValuesStayNonFinite) {
   Motion motion = moving(whole_person(), 30, 2);
   const SignerModel model = model_for(motion);
   const auto arm = static_cast<std::size_t>(model.rig[Part::right_forearm].joint);
@@ -210,7 +211,7 @@ TEST(HandTrace, NumbersThatAreNoneStayNone) {
   EXPECT_TRUE(std::isnan(over(track, trace.rate, trace.shoulder_width).path_length));
 }
 
-TEST(PointTrack, APartOfAMotionGivesTheNumbersOfTheWhole) {
+TEST(PointTrack, APartOfAMotionGivesTheValuesOfTheWhole) {
   const Motion motion = moving(whole_person(), 60, 4);
   const SignerModel model = model_for(motion);
   constexpr std::array kParts = {Part::right_forearm, Part::head};
@@ -225,12 +226,12 @@ TEST(PointTrack, APartOfAMotionGivesTheNumbersOfTheWhole) {
       EXPECT_EQ(part[which][i].acceleration, whole[which][20 + i].acceleration);
     }
   }
-  // The elbow as the hands' own measure has it.
+  // The elbow as in the hands' own measurement.
   const HandMotion measured = measure_hands(motion, model, {20, 33});
   EXPECT_LE((measured.hands[1].frames[5].elbow - part[0][5].position).norm(), 1e-6f);
 }
 
-TEST(PointTrack, APartThatIsNotThereHasNoTrack) {
+TEST(PointTrack, AMissingPartHasNoTrack) {
   const Motion motion = moving(whole_person(), 10, 4);
   SignerModel model = model_for(motion);
   model.rig[Part::head] = {};
@@ -242,7 +243,7 @@ TEST(PointTrack, APartThatIsNotThereHasNoTrack) {
   EXPECT_TRUE(track_points(motion, model, kParts, {0, 10})[0].empty());
 }
 
-TEST(PointTrack, SpeedsAndPathsAreOfAllFrames) {
+TEST(PointTrack, SpeedsAndPathsCoverAllFrames) {
   PointTrack track(3);
   track[0] = {.velocity = {1, 0, 0}, .acceleration = 1, .state = {.contact = Contact::head}};
   track[1] = {.position = {0.5f, 0, 0}, .velocity = {0, 3, 0}, .acceleration = 5};

@@ -10,7 +10,7 @@ void copy(const Eigen::Vector3f& from, JoinPoint& point, std::size_t at) noexcep
   for (int axis = 0; axis < 3; ++axis) point.values[at + static_cast<std::size_t>(axis)] = from[axis];
 }
 
-/// Sum of squared differences over some values.
+/// Returns the sum of squared differences over some values.
 float squares(const JoinPoint& a, const JoinPoint& b, std::size_t from, std::size_t count) noexcept {
   float sum = 0;
   for (std::size_t i = from; i < from + count; ++i) {
@@ -65,14 +65,14 @@ JoinTerms join_terms(const JoinPoint& a, const JoinPoint& b, Seconds transition,
   JoinTerms terms{};
   const auto term = [&](JoinTerm which) -> float& { return terms[static_cast<std::size_t>(which)]; };
   const unsigned both = static_cast<unsigned>(a.known) & b.known;
-  const auto way = static_cast<float>(std::max(transition, kShortestJoin).count()) * limit;
+  const auto reach = static_cast<float>(std::max(transition, kShortestJoin).count()) * limit;
   for (std::size_t side = 0; side < 2; ++side) {
     const unsigned known = both >> (3 * side);
     if ((known & JoinPoint::kHand) != 0) {
       const float place = squares(a, b, JoinPoint::kPlace + 3 * side, 3);
       term(JoinTerm::place) += place;
       term(JoinTerm::velocity) += squares(a, b, JoinPoint::kVelocity + 3 * side, 3);
-      term(JoinTerm::speed) += std::max(0.0f, place / (way * way) - 1.0f);
+      term(JoinTerm::speed) += std::max(0.0f, place / (reach * reach) - 1.0f);
     }
     if ((known & JoinPoint::kFingers) != 0) {
       term(JoinTerm::direction) += squares(a, b, JoinPoint::kDirection + 6 * side, 6);
@@ -113,13 +113,13 @@ JoinWeights decode_join_weights(ByteReader& in) {
   JoinWeights weights;
   const auto number = [&](float most) {
     const auto value = in.number<float>();
-    if (!(value >= 0 && value <= most)) in.fail("a weight that cannot be");
+    if (!(value >= 0 && value <= most)) in.fail("a weight is out of range");
     return value;
   };
   constexpr float kMost = 1e30f;
   for (float& weight : weights.weights) weight = number(kMost);
   weights.speed_limit = number(kMost);
-  if (weights.speed_limit == 0) in.fail("a speed limit of 0");
+  if (weights.speed_limit == 0) in.fail("the speed limit is 0");
   weights.pairs = in.number<std::uint32_t>();
   weights.comparisons = in.number<std::uint32_t>();
   weights.folds = in.number<std::uint32_t>();

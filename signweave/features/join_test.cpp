@@ -34,7 +34,7 @@ PhaseFeatures phase_with_hands() {
   return phase;
 }
 
-TEST(JoinPointTest, HoldsWhatIsKnownAtOneEndOfAPhase) {
+TEST(JoinPointTest, ContainsTheKnownValuesAtOneEndOfAPhase) {
   const JoinPoint end = join_point(phase_with_hands(), false);
   EXPECT_EQ(end.known, 127);
   EXPECT_EQ(end.values[JoinPoint::kPlace + 3], 4);
@@ -44,18 +44,18 @@ TEST(JoinPointTest, HoldsWhatIsKnownAtOneEndOfAPhase) {
   EXPECT_EQ(end.values[JoinPoint::kHandshape + 29], 0.5f);
   EXPECT_EQ(end.values[JoinPoint::kArms + 3], 0.7f);
   EXPECT_EQ(end.values[JoinPoint::kTrunk + 3], 0.25f);
-  const JoinPoint begin = join_point(phase_with_hands(), true);  // without fingers, elbows and trunk there
+  const JoinPoint begin = join_point(phase_with_hands(), true);  // no fingers, elbows or trunk there
   EXPECT_EQ(begin.known, JoinPoint::kHand | JoinPoint::kHand << 3);
   EXPECT_EQ(begin.values[JoinPoint::kPlace + 2], 3);
   EXPECT_EQ(join_point(PhaseFeatures{}, true).known, 0);
 }
 
-TEST(JoinTermsTest, AreSquaredDistancesOfWhatIsKnownOnBothSides) {
+TEST(JoinTermsTest, AreSquaredDistancesOfValuesKnownOnBothSides) {
   JoinPoint a = join_point(phase_with_hands(), false);
   JoinPoint b = a;
   const float limit = 2;
   EXPECT_EQ(join_terms(a, b, Seconds(0.5), limit), JoinTerms{});
-  b.values[JoinPoint::kPlace] += 2;  // of the left hand: in half a second twice the limit
+  b.values[JoinPoint::kPlace] += 2;  // left hand: in half a second, twice the limit
   b.values[JoinPoint::kHandshape] += 0.3f;
   b.values[JoinPoint::kTrunk + 3] += 0.1f;
   JoinTerms terms = join_terms(a, b, Seconds(0.5), limit);
@@ -64,16 +64,16 @@ TEST(JoinTermsTest, AreSquaredDistancesOfWhatIsKnownOnBothSides) {
   EXPECT_NEAR(term(terms, JoinTerm::handshape), 0.09f / 15, 1e-6f);
   EXPECT_NEAR(term(terms, JoinTerm::trunk), 0.01f, 1e-6f);
   EXPECT_EQ(term(terms, JoinTerm::velocity), 0);
-  terms = join_terms(a, b, Seconds(2), limit);  // there is time
+  terms = join_terms(a, b, Seconds(2), limit);  // enough time
   EXPECT_EQ(term(terms, JoinTerm::speed), 0);
-  terms = join_terms(a, b, Seconds(0), limit);  // never less than a tenth of a second
+  terms = join_terms(a, b, Seconds(0), limit);  // at least a tenth of a second counts
   EXPECT_NEAR(term(terms, JoinTerm::speed), 99, 1e-3f);
   b.known = static_cast<std::uint8_t>(b.known & ~JoinPoint::kHand);
   terms = join_terms(a, b, Seconds(0.5), limit);
   EXPECT_EQ(term(terms, JoinTerm::place), 0);
 }
 
-/// Recorded joins have a smaller place, and a handshape that tells nothing.
+/// Recorded joins have a smaller place term; the handshape term is uninformative.
 std::vector<JoinComparison> made_up(std::size_t pairs, std::uint32_t recordings) {
   std::mt19937 random(4);
   std::uniform_real_distribution<float> any(0, 1);
@@ -91,7 +91,7 @@ std::vector<JoinComparison> made_up(std::size_t pairs, std::uint32_t recordings)
   return comparisons;
 }
 
-TEST(LearnJoinWeights, WeighWhatTellsRecordedNeighboursFromOthers) {
+TEST(LearnJoinWeights, FavourTermsThatDistinguishRecordedNeighbours) {
   const JoinWeights learned = learn_join_weights(made_up(200, 8), 3);
   EXPECT_EQ(learned.pairs, 200u);
   EXPECT_EQ(learned.comparisons, 600u);
@@ -99,15 +99,15 @@ TEST(LearnJoinWeights, WeighWhatTellsRecordedNeighboursFromOthers) {
   EXPECT_EQ(learned.speed_limit, 3);
   EXPECT_GT(learned.wins, 0.85f);
   EXPECT_GT(learned.wins, learned.default_wins - 0.01f);
-  // In parts of what they are on average, place counts far more.
+  // Relative to their mean values, place counts far more.
   const float place = 0.6f * learned.weights[static_cast<std::size_t>(JoinTerm::place)];
   const float handshape = 0.005f * learned.weights[static_cast<std::size_t>(JoinTerm::handshape)];
   EXPECT_GT(place, 5 * handshape);
   EXPECT_GE(handshape, 0);
-  EXPECT_NEAR(place + handshape, 1, 0.35f);  // a blind choice costs 1; what is never there is set aside
+  EXPECT_NEAR(place + handshape, 1, 0.35f);  // a random choice costs 1; terms that never occur are excluded
 }
 
-TEST(LearnJoinWeights, GiveTheSameEachTime) {
+TEST(LearnJoinWeights, AreDeterministic) {
   EXPECT_EQ(learn_join_weights(made_up(50, 3), 3), learn_join_weights(made_up(50, 3), 3));
 }
 
@@ -122,7 +122,7 @@ TEST(LearnJoinWeights, AreTheDefaultsWithoutPairsAndNearThemWithFew) {
   EXPECT_NEAR(std::log(ratio(few) / ratio(JoinWeights{})), 0, std::log(4));
 }
 
-TEST(LearnJoinWeights, AreTheDefaultsWhereTheseDoBetterAndNeverDecisiveWhereNothingVaries) {
+TEST(LearnJoinWeights, AreTheDefaultsIfTheseDoBetterAndAreBoundedForConstantTerms) {
   std::mt19937 random(6);
   std::uniform_real_distribution<float> any(0, 1);
   std::vector<JoinComparison> noise;
@@ -136,7 +136,7 @@ TEST(LearnJoinWeights, AreTheDefaultsWhereTheseDoBetterAndNeverDecisiveWhereNoth
   }
   const JoinWeights learned = learn_join_weights(noise, 3);
   EXPECT_GE(learned.wins, learned.default_wins);
-  float sum = 0;  // of what a blind choice costs: 1 but for the floor of `speed`
+  float sum = 0;  // cost of a random choice: 1 except for the minimum of `speed`
   for (std::size_t k = 0; k < kJoinTerms; ++k) sum += 0.5e-4f * learned.weights[k];
   EXPECT_NEAR(sum, 1, 0.1f);
   JoinTerms shares{};
@@ -147,18 +147,18 @@ TEST(LearnJoinWeights, AreTheDefaultsWhereTheseDoBetterAndNeverDecisiveWhereNoth
 
 TEST(LearnJoinWeights, AreNeverNegative) {
   std::vector<JoinComparison> comparisons = made_up(200, 8);
-  for (JoinComparison& one : comparisons) std::swap(one.recorded, one.other);  // the farther, the better
+  for (JoinComparison& one : comparisons) std::swap(one.recorded, one.other);  // larger distances are preferred
   const JoinWeights learned = learn_join_weights(comparisons, 3);
   for (const float weight : learned.weights) EXPECT_GE(weight, 0);
 }
 
-TEST(JoinWeightsRecord, ComesBackAsItWasAndRefusesWhatCannotBe) {
+TEST(JoinWeightsRecord, SurvivesStorageAndRefusesInvalidValues) {
   const JoinWeights weights = learn_join_weights(made_up(20, 2), 3);
   ByteWriter out;
   encode(weights, out);
   ByteReader in(out.bytes(), "test");
   EXPECT_EQ(decode_join_weights(in), weights);
-  for (const std::size_t at : {3u, 31u}) {  // the sign of a weight, of the limit
+  for (const std::size_t at : {3u, 31u}) {  // the sign bits of a weight and of the limit
     Bytes bytes = out.bytes();
     bytes[at] |= std::byte{0x80};
     ByteReader damaged(bytes, "test");

@@ -5,9 +5,9 @@
 
 #include "signweave/features/join.h"
 
-// Pairwise ranking: the probability that a recorded join is told from another is 1 / (1 + exp(-w · x)), with x the
-// other's terms less the recorded one's. The weights that make the recorded ones most likely are found by Newton's
-// method; a weight that would fall below 0 stays there.
+// Pairwise ranking: the probability that the recorded join is preferred to the other is 1 / (1 + exp(-w · x)), with x =
+// the other's terms minus the recorded one's. The weights of maximum likelihood are found by Newton's method; a weight
+// that would become negative stays at 0.
 
 namespace signweave {
 namespace {
@@ -23,19 +23,19 @@ Vector of(const JoinTerms& terms) {
 }
 
 struct Example {
-  Vector x;           ///< other less recorded, scaled
-  double weight = 1;  ///< of its pair's comparisons each the same part of 1
+  Vector x;           ///< other minus recorded, scaled
+  double weight = 1;  ///< 1 / number of comparisons of its pair
   std::uint32_t recording = 0;
 };
 
-/// What a fit looks at: all examples but those of one fold, and how strongly it is drawn to equal weights. How large
-/// those are tells only how sure one can be, so that is fitted first.
+/// The input of a fit: all examples except those of one fold, and the strength of the regularisation towards equal
+/// weights. The magnitude of the equal weights only expresses certainty, so it is fitted first.
 struct Fit {
   const std::vector<Example>& examples;
-  std::uint32_t folds = 0;  ///< 0: none is left out
+  std::uint32_t folds = 0;  ///< 0: no fold is left out
   std::uint32_t left_out = 0;
   double prior = 0;  ///< pairs
-  double equal = 1;  ///< the weight that all have where they are equal
+  double equal = 1;  ///< the common value of equal weights
 
   template <typename See>
   void each(const See& see) const {
@@ -46,7 +46,7 @@ struct Fit {
   double pull() const { return prior / (kTerms * equal * equal); }
 };
 
-/// Of a difference that is right where it is positive.
+/// The loss of a difference, which is correct if positive.
 double loss_of(double z) {
   return z > 0 ? std::log1p(std::exp(-z)) : std::log1p(std::exp(z)) - z;
 }
@@ -57,7 +57,7 @@ double loss(const Fit& fit, const Vector& w) {
   return sum;
 }
 
-/// The equal weights that do best, between a twentieth and 20.
+/// Returns the best common weight, between 1/20 and 20.
 double equal_weight(const Fit& fit) {
   double low = std::log(0.05);
   double high = std::log(20.0);
@@ -66,7 +66,7 @@ double equal_weight(const Fit& fit) {
     fit.each([&](const Example& example) { sum += example.weight * loss_of(std::exp(logarithm) * example.x.sum()); });
     return sum;
   };
-  for (int round = 0; round < 30; ++round) {  // the loss is convex in the weight, so it has one valley
+  for (int round = 0; round < 30; ++round) {  // ternary search: the loss is convex in the weight
     const double left = low + (high - low) / 3;
     const double right = high - (high - low) / 3;
     if (at(left) < at(right)) {
@@ -86,11 +86,11 @@ Vector solve(Fit fit) {
     Vector gradient = fit.pull() * (w - Vector::Constant(fit.equal));
     Matrix hessian = Matrix::Identity() * fit.pull();
     fit.each([&](const Example& example) {
-      const double p = 1.0 / (1.0 + std::exp(w.dot(example.x)));  // that the other wins
+      const double p = 1.0 / (1.0 + std::exp(w.dot(example.x)));  // probability that the other is preferred
       gradient -= example.weight * p * example.x;
       hessian += example.weight * p * (1 - p) * example.x * example.x.transpose();
     });
-    for (int i = 0; i < kTerms; ++i) {  // a weight that is 0 and would fall is left alone
+    for (int i = 0; i < kTerms; ++i) {  // a weight that is 0 and would decrease is fixed
       if (w[i] > 0 || gradient[i] < 0) continue;
       gradient[i] = 0;
       hessian.row(i).setZero();
@@ -115,11 +115,11 @@ Vector solve(Fit fit) {
   return w;
 }
 
-/// How well a prior does.
+/// The performance of a prior.
 struct Judged {
   double prior = 0;
-  double loss = 0;  ///< of the pairs that were left out, without the prior's own part
-  double wins = 0;  ///< in [0, 1], of the same
+  double loss = 0;  ///< on the pairs left out, without the regularisation term
+  double wins = 0;  ///< in [0, 1], on the same pairs
 };
 
 Judged judge(const std::vector<Example>& examples, std::uint32_t folds, double prior) {
@@ -139,7 +139,7 @@ Judged judge(const std::vector<Example>& examples, std::uint32_t folds, double p
   return judged;
 }
 
-/// The prior that does best by cross-validation; where there is none, the one in the middle.
+/// Returns the best prior by cross-validation; without cross-validation, kPriorPairs.
 Judged judge_priors(const std::vector<Example>& examples, std::uint32_t folds) {
   if (folds == 0) return judge(examples, 0, kPriorPairs);
   Judged best = judge(examples, folds, 256 * kPriorPairs);
@@ -160,12 +160,12 @@ JoinWeights learn_join_weights(std::span<const JoinComparison> comparisons, floa
   Vector mean = Vector::Zero();
   for (const JoinComparison& one : comparisons) mean += of(one.other);
   mean /= static_cast<double>(comparisons.size());
-  // What hardly varies in a corpus is not made decisive: no weight may become more than about kMost times its default.
+  // A term that hardly varies in a corpus must not become decisive: no weight may exceed about kMost times its default.
   constexpr double kMost = 10;
   Vector scale = mean;
   for (int i = 0; i < kTerms; ++i) {
     const auto common = static_cast<double>(defaults.weights[static_cast<std::size_t>(i)]);
-    // 0: it is never there, and nothing is learned of it.
+    // 0: the term never occurs, and nothing is learned about it.
     scale[i] = mean[i] > 1e-9 ? std::max(mean[i], 1.0 / (kTerms * kMost * common)) : 0;
   }
   std::vector<Example> examples;
@@ -182,7 +182,7 @@ JoinWeights learn_join_weights(std::span<const JoinComparison> comparisons, floa
     ++learned.pairs;
     begin = end;
   }
-  // Recordings are numbered anew, so that each fold has some.
+  // Recordings are renumbered, so that each fold has some.
   const std::vector<std::uint32_t> order(recordings.begin(), recordings.end());
   for (Example& example : examples) {
     example.recording =
@@ -200,20 +200,20 @@ JoinWeights learn_join_weights(std::span<const JoinComparison> comparisons, floa
     if (wins) won += examples[i].weight;
   }
   learned.default_wins = static_cast<float>(std::min(1.0, won / learned.pairs));
-  // What does not beat the defaults on recordings left out is not taken.
+  // Weights that do not beat the defaults on recordings left out are discarded.
   const bool better = static_cast<float>(best.wins) > learned.default_wins;
   learned.wins = better ? static_cast<float>(best.wins) : learned.default_wins;
   Vector weights = of(defaults.weights);
   for (int i = 0; i < kTerms; ++i) {
     if (better && scale[i] > 0) weights[i] = w[i] / scale[i];
   }
-  // A blindly chosen join is to cost 1. A term that is never there has no part in that, and keeps its default.
-  const double blind = weights.dot(mean);
+  // A randomly chosen join must cost 1 on average. A term that never occurs does not contribute, and keeps its default.
+  const double random_cost = weights.dot(mean);
   for (int i = 0; i < kTerms; ++i) {
     const auto k = static_cast<std::size_t>(i);
-    if (scale[i] > 0 && blind > 0) learned.weights[k] = static_cast<float>(weights[i] / blind);
+    if (scale[i] > 0 && random_cost > 0) learned.weights[k] = static_cast<float>(weights[i] / random_cost);
   }
-  // In the time that transitions have on average nobody hurries, so this is not learned of the hurried ones.
+  // In transitions of average duration hands do not hurry, so this weight cannot be learned from them.
   float& speed = learned.weights[static_cast<std::size_t>(JoinTerm::speed)];
   speed = std::max(speed, defaults.weights[static_cast<std::size_t>(JoinTerm::speed)]);
   return learned;

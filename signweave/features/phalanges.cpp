@@ -8,7 +8,7 @@ namespace {
 
 using Eigen::Vector3f;
 
-constexpr float kThickness = 0.1f;  ///< radius of a finger by its length
+constexpr float kThickness = 0.1f;  ///< ratio of a finger's radius to its length
 
 }  // namespace
 
@@ -46,7 +46,7 @@ void phalanges_of(const HandPoints& hand, const FingerRadii& radii, Phalanges& o
 FingerPairs finger_pairs(const Phalanges& hand) noexcept {
   FingerPairs pairs;
   CapsuleRow::Numbers clear;
-  std::size_t first = 0;  // of the pairs of a finger
+  std::size_t first = 0;  // index of finger a's first pair
   for (std::size_t a = 0; a + 1 < hand.fingers.size(); first += hand.fingers.size() - 1 - a, ++a) {
     for (std::size_t i = hand.fingers[a].begin; i < hand.fingers[a].end; ++i) {
       clearances(hand.bones[i], hand.bones, hand.fingers[a].end, clear);

@@ -10,7 +10,7 @@ namespace {
 
 using Eigen::Vector3f;
 
-/// Fingers of bones of 1 to 5 cm that lie anywhere within a hand's reach.
+/// Fingers with bones of 1 to 5 cm at random positions within a hand's reach.
 HandPoints arbitrary_hand() {
   const auto number = [](int from, int to) { return static_cast<float>(*rc::gen::inRange(from, to)) / 1000; };
   const auto point = [&](int reach) {
@@ -28,7 +28,7 @@ HandPoints arbitrary_hand() {
   return hand;
 }
 
-/// The bones as capsules of contact.h.
+/// The bones as capsules (contact.h).
 std::vector<Capsule> bars_of(const HandPoints& hand, const FingerRadii& radii, std::size_t finger) {
   const HandPoints::OneFinger& one = hand.fingers[finger];
   std::vector<Capsule> bars;
@@ -38,7 +38,7 @@ std::vector<Capsule> bars_of(const HandPoints& hand, const FingerRadii& radii, s
   return bars;
 }
 
-RC_GTEST_PROP(Phalanges, AreAsDeepInEachOtherAsTheirCapsules, ()) {
+RC_GTEST_PROP(Phalanges, HaveThePenetrationDepthsOfTheirCapsules, ()) {
   const HandPoints hand = arbitrary_hand();
   const FingerRadii radii = finger_radii(hand);
   Phalanges phalanges;
@@ -61,7 +61,7 @@ RC_GTEST_PROP(Phalanges, AreAsDeepInEachOtherAsTheirCapsules, ()) {
   RC_ASSERT(worst.has_value() == (deepest > 0));
   if (!worst) return;
   RC_ASSERT(std::abs(worst->beyond - deepest) < 1e-5f);
-  // Led apart by as much as they are deep, the places that touch do so no more.
+  // Moved apart by their penetration depth, the fingers no longer overlap at these points.
   const float thick =
       radii[static_cast<std::size_t>(worst->a.finger)] + radii[static_cast<std::size_t>(worst->b.finger)];
   const Vector3f led = worst->a.at + worst->beyond * worst->away - worst->b.at;

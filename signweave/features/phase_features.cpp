@@ -59,7 +59,7 @@ HandOver over(std::span<const HandFrame> frames, FrameRate rate, const SignerBod
   return hand;
 }
 
-/// Empty, or why nothing can be measured of any phase.
+/// Returns an empty string, or the reason why no phase can be measured.
 std::string why_not_measured(const Motion& motion, const SignerModel& model) {
   if (motion.frame_count() == 0) return "the motion has no frame";
   if (!model.body) {
@@ -114,18 +114,18 @@ RecordingFeatures measure_phases(const Motion& motion, const SignerModel& model,
   if (result.why_not.empty()) result.shoulder_width = model.body->shoulder_width;
   bool known = phases.empty();
   for (std::size_t i = 0; i < phases.size(); ++i) {
-    const FrameRange asked = frames_of(phases[i], clock);
-    FrameRange frames = clamp(asked, motion.frame_count());
+    const FrameRange requested = frames_of(phases[i], clock);
+    FrameRange frames = clamp(requested, motion.frame_count());
     PhaseFeatures& features = result.phases[i];
-    const bool short_one = asked.empty() && 0 <= asked.begin && asked.begin < motion.frame_count();
-    if (short_one) frames = {asked.begin, asked.begin + 1};
+    const bool shorter_than_frame = requested.empty() && 0 <= requested.begin && requested.begin < motion.frame_count();
+    if (shorter_than_frame) frames = {requested.begin, requested.begin + 1};
     if (frames.empty()) continue;
     if (result.why_not.empty()) {
       features = features_over(measure_hands(motion, model, frames), frames, motion.rate(), *model.body);
       if (!finite(features)) features = {};
       known = known || features.known;
     }
-    features.seconds = short_one ? 0 : seconds_of(frames, motion.rate());
+    features.seconds = shorter_than_frame ? 0 : seconds_of(frames, motion.rate());
   }
   if (result.why_not.empty() && !known) {
     result.why_not =

@@ -16,7 +16,7 @@ const SignerBody kBody{.shoulder_width = 0.4f,
                        .near_reach = 0.8f,
                        .arm_length = 1.5f};
 
-/// A right hand that moves to the signer's left with speeds of its own, frame by frame.
+/// A right hand that moves to the signer's left with the given speed at each frame.
 HandMotion moving(const std::vector<float>& speeds) {
   HandMotion motion{.range = {10, 10 + static_cast<std::int64_t>(speeds.size())}, .hands = {}, .hands_distance = {}};
   motion.hands[0].why_not = "no left wrist";
@@ -71,11 +71,11 @@ TEST(PhaseFeatures, OneFrameHasOneValueThroughout) {
   for (const float speed : hand.profile) EXPECT_FLOAT_EQ(speed, 2);
 }
 
-TEST(PhaseFeatures, AHandThatStandsStillHasNoCurvature) {
+TEST(PhaseFeatures, AMotionlessHandHasNoCurvature) {
   EXPECT_FLOAT_EQ(features_over(moving({0, 0, 0}), {10, 13}, kFeatureRate, kBody).hands[1].mean_curvature, 0);
 }
 
-TEST(PhaseFeatures, ABodyWithoutShouldersGivesAReasonAndNoNumbers) {
+TEST(PhaseFeatures, ABodyWithoutShouldersGivesAReasonAndNoValues) {
   const auto skeleton = std::make_shared<const Skeleton>(
       std::vector<Joint>{{"a", kNoJoint, {0, 1, 0}, true}, {"b", 0, {0, 1, 0}, false}}, std::vector<Tip>{});
   const Motion motion(skeleton, kFeatureRate, 20);
@@ -87,7 +87,7 @@ TEST(PhaseFeatures, ABodyWithoutShouldersGivesAReasonAndNoNumbers) {
   EXPECT_FALSE(features.phases[0].known);
   EXPECT_FLOAT_EQ(features.phases[0].seconds, 0.1f);
   EXPECT_FLOAT_EQ(features.phases[1].seconds, 0);
-  EXPECT_FLOAT_EQ(features.phases[2].seconds, 0) << "outside of the motion";
+  EXPECT_FLOAT_EQ(features.phases[2].seconds, 0) << "outside the motion";
 }
 
 RecordingFeatures stored_and_read(const RecordingFeatures& features) {
@@ -97,7 +97,7 @@ RecordingFeatures stored_and_read(const RecordingFeatures& features) {
   return decode_features(in).value();
 }
 
-RC_GTEST_PROP(FeatureRecord, ComesBackAsItWas, (const std::vector<std::vector<std::uint8_t>>& speeds)) {
+RC_GTEST_PROP(FeatureRecord, SurvivesStorage, (const std::vector<std::vector<std::uint8_t>>& speeds)) {
   RecordingFeatures features;
   features.why_not = speeds.empty() ? "nothing" : "";
   features.shoulder_width = 0.4f;
@@ -126,7 +126,7 @@ RC_GTEST_PROP(FeatureRecord, ComesBackAsItWas, (const std::vector<std::vector<st
   RC_ASSERT(again.bytes() == first.bytes());
 }
 
-TEST(FeatureRecord, EveryCutIsRefused) {
+TEST(FeatureRecord, EveryTruncationIsRefused) {
   RecordingFeatures features;
   const HandMotion measured = moving({1, 2});
   features.phases = {features_over(measured, measured.range, kFeatureRate, kBody)};
@@ -138,13 +138,13 @@ TEST(FeatureRecord, EveryCutIsRefused) {
   }
 }
 
-TEST(FeatureRecord, OfTheVersionBeforeIsReadWithoutNoise) {
+TEST(FeatureRecord, ThePreviousVersionIsReadWithoutNoise) {
   RecordingFeatures features;
   const HandMotion measured = moving({1, 2});
   features.phases = {features_over(measured, measured.range, kFeatureRate, kBody)};
   ByteWriter out;
   encode(features, out);
-  Bytes before(out.bytes().begin(), out.bytes().end() - 8);  // without the two counts of noise
+  Bytes before(out.bytes().begin(), out.bytes().end() - 8);  // without the two noise counts
   before[0] = std::byte{kFeaturesWithoutNoise};
   ByteReader in(before, "test");
   const RecordingFeatures read = decode_features(in).value();
@@ -153,7 +153,7 @@ TEST(FeatureRecord, OfTheVersionBeforeIsReadWithoutNoise) {
   EXPECT_TRUE(read.noise.rotations.empty());
 }
 
-TEST(FeatureRecord, NoiseBelowNothingIsRefused) {
+TEST(FeatureRecord, NegativeNoiseIsRefused) {
   RecordingFeatures features;
   features.noise.rotations = {0.1f, -0.1f};
   ByteWriter out;
@@ -162,7 +162,7 @@ TEST(FeatureRecord, NoiseBelowNothingIsRefused) {
   EXPECT_THROW(decode_features(in), Error);
 }
 
-TEST(FeatureRecord, AnotherVersionIsNoneAndNumbersThatAreNoneAreRefused) {
+TEST(FeatureRecord, OtherVersionsGiveNulloptAndNonFiniteValuesAreRefused) {
   RecordingFeatures features;
   const HandMotion measured = moving({1, 2});
   features.phases = {features_over(measured, measured.range, kFeatureRate, kBody)};
@@ -177,7 +177,7 @@ TEST(FeatureRecord, AnotherVersionIsNoneAndNumbersThatAreNoneAreRefused) {
   EXPECT_FALSE(decode_features(later).has_value());
 }
 
-TEST(FeatureRecord, ADifferenceIsSeen) {
+TEST(FeatureRecord, ADifferenceIsDetected) {
   const HandMotion measured = moving({1, 2, 1});
   const PhaseFeatures features = features_over(measured, measured.range, kFeatureRate, kBody);
   PhaseFeatures other = features;

@@ -14,7 +14,7 @@ constexpr int kBuiltIn[] = {
 #include "signweave/features/phase_weights.inc"
 };
 
-/// Calls `visit` with every number of a model, always in the same order.
+/// Calls `visit` with every parameter of a model, always in the same order.
 template <class Model, class Visit>
 void for_each_number(Model& model, const Visit& visit) {
   for (auto& number : model.mean) visit(number);
@@ -76,9 +76,9 @@ std::vector<PhaseProbabilities> phase_probabilities(const PhaseModel& model, std
   return result;
 }
 
-std::vector<MotionPhase> likeliest_phases(const PhaseModel& model, std::span<const PhaseProbabilities> frames) {
+std::vector<MotionPhase> most_likely_phases(const PhaseModel& model, std::span<const PhaseProbabilities> frames) {
   if (frames.empty()) return {};
-  std::array<double, kMotionPhases> best{};  // double: sums over an hour of frames
+  std::array<double, kMotionPhases> best{};  // double precision for sums over an hour of frames
   std::vector<std::array<std::uint8_t, kMotionPhases>> from(frames.size());
   for (std::size_t frame = 0; frame < frames.size(); ++frame) {
     const std::array<double, kMotionPhases> before = best;
@@ -90,7 +90,7 @@ std::vector<MotionPhase> likeliest_phases(const PhaseModel& model, std::span<con
         }
         best[to] = before[source] + model.step[source][to];
       }
-      // A frame of which the networks are sure must still be able to be wrong.
+      // A confident prediction of the networks must still be able to be overruled.
       best[to] += std::log(frames[frame][to] + 1e-3F);
       from[frame][to] = static_cast<std::uint8_t>(source);
     }

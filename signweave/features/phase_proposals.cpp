@@ -10,7 +10,7 @@ namespace signweave {
 AnnotationDocument proposals_document(const ProposedPhases& proposed, Seconds length, const std::string& motion_file) {
   AnnotationDocument document;
   document.author = "signweave";
-  document.date = "1970-01-01T00:00:00+00:00";  // the same motion gives the same bytes
+  document.date = "1970-01-01T00:00:00+00:00";  // fixed, so that the same motion gives the same bytes
   document.linked_files.push_back(
       {.url = motion_file, .relative_url = "./" + motion_file, .mime_type = "unknown", .media = false});
   document.properties.emplace_back("signweave:proposed", std::string(kProposalWarning));
@@ -21,7 +21,7 @@ AnnotationDocument proposals_document(const ProposedPhases& proposed, Seconds le
     if (phases.empty()) continue;
     const std::string hand = side == Side::right ? "RH" : "LH";
     Tier tier{.id = fmt::format("Phase {} (proposed)", hand), .type = "phase", .annotator = "signweave"};
-    Tier sure{
+    Tier confidence{
         .id = fmt::format("Confidence {}", hand), .type = "confidence", .parent = tier.id, .annotator = "signweave"};
     for (const ProposedPhase& phase : phases) {
       const auto whole = [&](Seconds time) {
@@ -31,14 +31,14 @@ AnnotationDocument proposals_document(const ProposedPhases& proposed, Seconds le
       if (span.duration() <= Milliseconds(0)) continue;
       const std::string id = fmt::format("a{}", next++);
       tier.annotations.push_back({.id = id, .label = std::string(name_of(phase.phase)), .span = span});
-      sure.annotations.push_back({.id = fmt::format("a{}", next++),
-                                  .label = fmt::format("{:.2f}", phase.confidence),
-                                  .span = span,
-                                  .parent = id,
-                                  .aligned = false});
+      confidence.annotations.push_back({.id = fmt::format("a{}", next++),
+                                        .label = fmt::format("{:.2f}", phase.confidence),
+                                        .span = span,
+                                        .parent = id,
+                                        .aligned = false});
     }
     document.tiers.push_back(std::move(tier));
-    document.tiers.push_back(std::move(sure));
+    document.tiers.push_back(std::move(confidence));
   }
   return document;
 }

@@ -21,7 +21,7 @@ Signal smoothed(const Signal& signal, double sigma) {
         signal[static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(i - radius, 0, count - 1))];
   }
   Signal result(signal.size(), 0.0F);
-  // Weight by weight rather than frame by frame: the inner loop is then a plain sum of two arrays.
+  // Loops over weights outside and frames inside, so that the inner loop is a plain sum of two arrays.
   for (std::size_t k = 0; k < weights.size(); ++k) {
     const float weight = weights[k];
     const float* const from = padded.data() + k;

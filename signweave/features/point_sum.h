@@ -6,7 +6,7 @@
 
 namespace signweave {
 
-/// `over` of frames that come one after the other, so that a long stretch need not be in memory.
+/// Computes `over` incrementally, so that a long range of frames need not be in memory.
 class PointSum {
  public:
   void add(const PointFrame& frame) noexcept {
@@ -23,7 +23,7 @@ class PointSum {
     count_ += 1;
   }
 
-  /// Of what was added, at least one frame.
+  /// Returns the result for the added frames; at least one must have been added.
   PointOver over(FrameRate rate, float shoulder_width) const noexcept {
     PointOver result = over_;
     result.mean_speed = static_cast<float>(speeds_ / count_);
@@ -38,7 +38,7 @@ class PointSum {
   double path_ = 0;  ///< speed summed over frames
   double speeds_ = 0;
   double accelerations_ = 0;
-  double before_ = 0;  ///< the speed of the last frame
+  double before_ = 0;  ///< speed of the last frame
   double count_ = 0;
 };
 

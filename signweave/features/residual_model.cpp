@@ -37,7 +37,7 @@ void encode(const ResidualModel& model, ByteWriter& out) {
 ResidualModel decode_residual_model(ByteReader& in) {
   const auto finite = [&] {
     const auto number = in.number<float>();
-    if (!std::isfinite(number)) in.fail("a number of what movements taught is not finite");
+    if (!std::isfinite(number)) in.fail("a value of the residual model is not finite");
     return number;
   };
   const auto all = [&](auto& numbers) {
@@ -48,7 +48,7 @@ ResidualModel decode_residual_model(ByteReader& in) {
   model.recordings = in.number<std::uint64_t>();
   model.folds = in.number<std::uint64_t>();
   const auto by_signer = in.number<std::uint8_t>();
-  if (by_signer > 1) in.fail("it is neither by signer nor not");
+  if (by_signer > 1) in.fail("the by-signer flag is neither 0 nor 1");
   model.by_signer = by_signer == 1;
   model.mean_ratio = finite();
   model.median_ratio = finite();
@@ -59,10 +59,10 @@ ResidualModel decode_residual_model(ByteReader& in) {
       in.count((ResidualModel::kGates + ResidualModel::kTraits * ResidualModel::kBends) * sizeof(float));
   if (count > 0) {
     for (const float scale : model.gate_scale) {
-      if (!(scale > 0)) in.fail("a scale of what movements taught is not above 0");
+      if (!(scale > 0)) in.fail("a scale of the residual model is not positive");
     }
     for (const float scale : model.trait_scale) {
-      if (!(scale > 0)) in.fail("a scale of what movements taught is not above 0");
+      if (!(scale > 0)) in.fail("a scale of the residual model is not positive");
     }
   }
   model.centres.resize(count);

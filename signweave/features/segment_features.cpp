@@ -11,7 +11,7 @@ namespace {
 
 constexpr auto kRate = static_cast<float>(kSegmenterRate);
 
-/// A hand over one stretch, relative to the trunk, trunk lengths; x outwards on both sides.
+/// The path of a hand over one section, relative to the trunk, in trunk lengths; x points outwards on both sides.
 struct HandPath {
   Path path;
   Signal speed;  ///< trunk lengths a second
@@ -29,21 +29,21 @@ void check(const UpperBodyTrack& track) {
       const auto s = static_cast<std::size_t>(side);
       if (track.has_hand[s]) finite = finite && body.hands[s].allFinite() && body.wrists[s].allFinite();
     }
-    if (!finite) throw Error(ErrorCode::bad_input, fmt::format("moment {}: a number is not finite", i));
+    if (!finite) throw Error(ErrorCode::bad_input, fmt::format("moment {}: a value is not finite", i));
     if (i > 0 && track.times[i] <= track.times[i - 1]) {
-      throw Error(ErrorCode::bad_input, fmt::format("moment {}: its time is not after the one before", i));
+      throw Error(ErrorCode::bad_input, fmt::format("moment {}: its time is not later than the previous one", i));
     }
   }
 }
 
-/// Moments [begin, end) between gaps.
-struct Stretch {
+/// Moments [begin, end) without a gap.
+struct Section {
   std::size_t begin = 0;
   std::size_t end = 0;
 };
 
-std::vector<Stretch> stretches_of(const std::vector<Seconds>& times) {
-  std::vector<Stretch> result;
+std::vector<Section> sections_of(const std::vector<Seconds>& times) {
+  std::vector<Section> result;
   for (std::size_t i = 0; i < times.size(); ++i) {
     if (i == 0 || times[i] - times[i - 1] > kLongestStep) result.push_back({i, i});
     result.back().end = i + 1;
@@ -51,22 +51,22 @@ std::vector<Stretch> stretches_of(const std::vector<Seconds>& times) {
   return result;
 }
 
-/// Middle of palm and wrist relative to `spine`, and the spine, at the segmenter's rate.
+/// Midpoints of palm and wrist, and the spine, at the segmenter's rate.
 struct Resampled {
   std::array<Path, 2> hands;
   Path spine;
 };
 
-Resampled resampled(const UpperBodyTrack& track, Stretch stretch, std::size_t frames) {
+Resampled resampled(const UpperBodyTrack& track, Section section, std::size_t frames) {
   Resampled result;
   for (Path* path : {&result.hands[0], &result.hands[1], &result.spine}) {
     for (Signal& axis : *path) axis.resize(frames);
   }
-  std::size_t at = stretch.begin;
+  std::size_t at = section.begin;
   for (std::size_t frame = 0; frame < frames; ++frame) {
-    const Seconds time = track.times[stretch.begin] + Seconds(static_cast<double>(frame) / kSegmenterRate);
-    while (at + 2 < stretch.end && track.times[at + 1] <= time) ++at;
-    const std::size_t next = std::min(at + 1, stretch.end - 1);
+    const Seconds time = track.times[section.begin] + Seconds(static_cast<double>(frame) / kSegmenterRate);
+    while (at + 2 < section.end && track.times[at + 1] <= time) ++at;
+    const std::size_t next = std::min(at + 1, section.end - 1);
     const double step = (track.times[next] - track.times[at]).count();
     const auto share =
         static_cast<float>(step > 0 ? std::clamp((time - track.times[at]).count() / step, 0.0, 1.0) : 0.0);
@@ -89,8 +89,8 @@ Resampled resampled(const UpperBodyTrack& track, Stretch stretch, std::size_t fr
   return result;
 }
 
-/// Where a hand rests: the place at which it is most often while slow, low ones before high ones.
-Eigen::Vector3f resting_place(const std::vector<HandPath>& hand) {
+/// Returns a hand's resting position: where it is most often while slow, preferring low positions.
+Eigen::Vector3f resting_position(const std::vector<HandPath>& hand) {
   std::vector<float> speeds;
   std::vector<float> heights;
   for (const HandPath& part : hand) {
@@ -105,7 +105,7 @@ Eigen::Vector3f resting_place(const std::vector<HandPath>& hand) {
       if (part.speed[i] <= slow) places.emplace_back(part.path[0][i], part.path[1][i], part.path[2][i]);
     }
   }
-  // A few hundred places tell as much as all of them, and their pairs are counted.
+  // A few hundred positions are sufficient, and the cost is quadratic.
   const std::size_t step = std::max<std::size_t>(1, places.size() / 400);
   Eigen::Vector3f best = Eigen::Vector3f::Zero();
   float most = -1;
@@ -123,11 +123,11 @@ Eigen::Vector3f resting_place(const std::vector<HandPath>& hand) {
   return best;
 }
 
-/// What a hand is measured against, told from the recording itself.
+/// The reference values of a hand, derived from the recording itself.
 struct OwnMeasures {
   Eigen::Vector3f rest;
-  float speed = 1;     ///< trunk lengths a second: fast for this hand
-  float distance = 1;  ///< trunk lengths: far from the resting place for this hand
+  float speed = 1;     ///< trunk lengths a second: a high speed for this hand
+  float distance = 1;  ///< trunk lengths: a large distance from the resting position for this hand
 };
 
 Signal distance_to(const Path& path, const Eigen::Vector3f& place) {
@@ -139,7 +139,7 @@ Signal distance_to(const Path& path, const Eigen::Vector3f& place) {
 }
 
 OwnMeasures own_measures(const std::vector<HandPath>& hand) {
-  OwnMeasures own{.rest = resting_place(hand)};
+  OwnMeasures own{.rest = resting_position(hand)};
   std::vector<float> speeds;
   std::vector<float> distances;
   for (const HandPath& part : hand) {
@@ -162,7 +162,7 @@ class Columns {
   Columns(const Columns&) = delete;
   Columns& operator=(const Columns&) = delete;
 
-  /// The next feature: value_of(frame) for every frame.
+  /// Adds the next feature: value_of(frame) for every frame.
   template <class ValueOf>
   void add(const ValueOf& value_of) {
     assert(next_ < kPhaseFeatures);
@@ -176,7 +176,7 @@ class Columns {
   std::size_t next_ = 0;
 };
 
-/// The frame `lag` away, or the nearest one that is there.
+/// Returns the frame `lag` away, clamped to the range.
 std::size_t shifted(std::size_t frame, int lag, std::size_t frames) {
   const auto at = static_cast<std::ptrdiff_t>(frame) + lag;
   return static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(at, 0, static_cast<std::ptrdiff_t>(frames) - 1));
@@ -188,8 +188,9 @@ Signal logarithm(const Signal& signal, float unit) {
   return result;
 }
 
-/// Strokes are slower than transitions yet accelerate more (Jantunen 2013): so speed, acceleration, straightness and
-/// the way to and from the resting place stand side by side, at several widths: up to a second and a third each way.
+/// Strokes are slower than transitions yet accelerate more (Jantunen 2013). So speed, acceleration, straightness and
+/// the movement from and to the resting position are combined, at several widths: up to a second and a third on either
+/// side.
 std::vector<float> features_of(const HandPath& hand, const OwnMeasures& own) {
   const std::size_t frames = hand.speed.size();
   const Path& path = hand.path;
@@ -252,7 +253,7 @@ std::vector<float> features_of(const HandPath& hand, const OwnMeasures& own) {
   return values;
 }
 
-/// The median length of the trunk from its middle to the head: what all distances are measured in.
+/// Returns the median length of the trunk from its centre to the head: the unit of all distances.
 float trunk_length(const UpperBodyTrack& track) {
   std::vector<float> lengths;
   lengths.reserve(track.bodies.size());
@@ -267,16 +268,16 @@ std::vector<PhaseFrames> phase_features(const UpperBodyTrack& track) {
   const float trunk = trunk_length(track);
   std::vector<PhaseFrames> result;
   std::array<std::vector<HandPath>, 2> hands;
-  for (const Stretch stretch : stretches_of(track.times)) {
-    const Seconds length = track.times[stretch.end - 1] - track.times[stretch.begin];
+  for (const Section section : sections_of(track.times)) {
+    const Seconds length = track.times[section.end - 1] - track.times[section.begin];
     const std::size_t frames = static_cast<std::size_t>(length.count() * kSegmenterRate + 1e-6) + 1;
-    Resampled sampled = resampled(track, stretch, frames);
+    Resampled sampled = resampled(track, section, frames);
     const Path spine = smoothed(sampled.spine, 15);
     for (std::size_t side = 0; side < 2; ++side) {
       if (!track.has_hand[side]) continue;
       HandPath& hand = hands[side].emplace_back();
       for (std::size_t axis = 0; axis < 3; ++axis) {
-        // Outwards is to the left for the left hand: mirrored, the right hand is a left one.
+        // Outwards is left for the left hand: the right hand is mirrored.
         const float scale = (axis == 0 && side == static_cast<std::size_t>(Side::right) ? -1.0F : 1.0F) / trunk;
         Signal relative = std::move(sampled.hands[side][axis]);
         for (std::size_t i = 0; i < frames; ++i) relative[i] = scale * (relative[i] - spine[axis][i]);
@@ -284,7 +285,7 @@ std::vector<PhaseFrames> phase_features(const UpperBodyTrack& track) {
       }
       hand.speed = speed_of(smoothed(hand.path, 1));
     }
-    result.push_back({.begin = track.times[stretch.begin], .frames = frames});
+    result.push_back({.begin = track.times[section.begin], .frames = frames});
   }
   for (std::size_t side = 0; side < 2; ++side) {
     if (hands[side].empty()) continue;

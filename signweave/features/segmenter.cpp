@@ -22,8 +22,8 @@ std::string_view name_of(MotionPhase phase) noexcept {
 
 namespace {
 
-void add_stretches(const PhaseFrames& frames, std::span<const PhaseProbabilities> probabilities,
-                   std::span<const MotionPhase> phases, std::vector<ProposedPhase>& result) {
+void add_phases(const PhaseFrames& frames, std::span<const PhaseProbabilities> probabilities,
+                std::span<const MotionPhase> phases, std::vector<ProposedPhase>& result) {
   for (std::size_t begin = 0; begin < phases.size();) {
     std::size_t end = begin;
     float sum = 0;
@@ -47,7 +47,7 @@ ProposedPhases propose_phases(const UpperBodyTrack& track) {
     for (std::size_t side = 0; side < 2; ++side) {
       if (frames.features[side].empty()) continue;
       const std::vector<PhaseProbabilities> probabilities = phase_probabilities(model, frames.features[side]);
-      add_stretches(frames, probabilities, likeliest_phases(model, probabilities), result.hands[side]);
+      add_phases(frames, probabilities, most_likely_phases(model, probabilities), result.hands[side]);
     }
   }
   for (const Side side : kSides) {

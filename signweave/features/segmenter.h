@@ -16,29 +16,29 @@
 
 namespace signweave {
 
-/// What a hand does at a moment, told from motion alone.
+/// The phase of a hand at a moment, derived from motion alone.
 enum class MotionPhase : std::uint8_t { rest = 0, preparation = 1, stroke = 2, hold = 3, retraction = 4 };
 inline constexpr std::size_t kMotionPhases = 5;
 std::string_view name_of(MotionPhase phase) noexcept;
 
-/// What the segmenter sees at one moment, in metres: captured by a suit, a Kinect or a camera alike. The axes are the
-/// signer's, the origin anywhere: x to the signer's left, y up, z forward.
+/// The segmenter's input at one moment, in metres, whether captured by a suit, a Kinect or a camera. The axes are the
+/// signer's, with an arbitrary origin: x to the signer's left, y up, z forward.
 struct UpperBody {
   std::array<Eigen::Vector3f, 2> hands;   ///< [Side] palm or knuckles
   std::array<Eigen::Vector3f, 2> wrists;  ///< [Side]
-  Eigen::Vector3f head;                   ///< its middle
-  Eigen::Vector3f spine;                  ///< middle of the trunk
+  Eigen::Vector3f head;                   ///< its centre
+  Eigen::Vector3f spine;                  ///< centre of the trunk
 };
 
-/// An upper body over time, as captured: at a fixed rate or not, with gaps or without.
+/// An upper body over time, as captured: at a fixed or variable rate, with or without gaps.
 struct UpperBodyTrack {
   std::vector<Seconds> times;                  ///< ascending; a step of more than kLongestStep is a gap
   std::vector<UpperBody> bodies;               ///< one for each time
-  std::array<bool, 2> has_hand{{true, true}};  ///< [Side] false: that hand's numbers mean nothing
+  std::array<bool, 2> has_hand{{true, true}};  ///< [Side] false: that hand's values are meaningless
 };
 inline constexpr Seconds kLongestStep{1.0};
 
-/// One proposed stretch of one hand, or of both together.
+/// One proposed phase of one hand, or of both together.
 struct ProposedPhase {
   MotionPhase phase = MotionPhase::rest;
   Seconds begin{0};
@@ -46,21 +46,20 @@ struct ProposedPhase {
   float confidence = 0;  ///< mean probability of the phase over its frames, in [0, 1]
 };
 
-/// What is proposed for a recording.
+/// The proposals for a recording.
 struct ProposedPhases {
-  std::array<std::vector<ProposedPhase>, 2>
-      hands;                    ///< [Side] in time order, without gaps but where the capture has them
-  std::vector<Notice> notices;  ///< a hand that is absent
+  std::array<std::vector<ProposedPhase>, 2> hands;  ///< [Side] in time order, without gaps except those of the capture
+  std::vector<Notice> notices;                      ///< a hand that is absent
 };
 
-/// Phases of both hands, each for itself, from motion alone: proposals for a person to check. docs/segmenting.md says
-/// how, and how good they are. Deterministic. Throws Error{bad_input} where times do not ascend or are not as many as
-/// bodies, and where a number is not finite.
+/// Proposes the phases of each hand separately, from motion alone, for manual checking. docs/segmenting.md describes
+/// the method and its accuracy. Deterministic. Throws Error{bad_input} if times do not ascend, if their number differs
+/// from that of the bodies, or if a value is not finite.
 ProposedPhases propose_phases(const UpperBodyTrack& track);
 
-/// The upper body of a motion. Hands are the middle of the palm where the rig has knuckles, else the wrist. A hand
-/// that the map lacks is absent (`has_hand`). Throws Error{not_found} where the map has neither hand, or no head or
-/// trunk to measure them by.
+/// Returns the upper body of a motion. Hands are the centre of the palm if the rig has knuckles, else the wrist. A hand
+/// that the map lacks is absent (`has_hand`). Throws Error{not_found} if the map has neither hand, or lacks the head or
+/// trunk as a reference.
 UpperBodyTrack upper_body_of(const Motion& motion, const RigMap& rig);
 
 }  // namespace signweave

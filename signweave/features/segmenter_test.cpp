@@ -17,7 +17,8 @@ namespace {
 constexpr auto kRight = static_cast<std::size_t>(Side::right);
 constexpr auto kLeft = static_cast<std::size_t>(Side::left);
 
-/// Where the right hand is: on the lap, up within half a second at 3 s, to and fro before the chest, down again at 6 s.
+/// Position of the right hand: on the lap, up within half a second at 3 s, to and fro in front of the chest, down again
+/// at 6 s.
 Eigen::Vector3f right_hand(double second) {
   const Eigen::Vector3f lap(-0.15F, -0.25F, 0.2F);
   const Eigen::Vector3f chest(-0.2F, 0.15F, 0.35F);
@@ -68,7 +69,7 @@ TEST(Segmenter, AHandThatNeverMovesRests) {
   EXPECT_EQ(left[0].phase, MotionPhase::rest);
 }
 
-TEST(Segmenter, PhasesTouchAndCoverTheRecordingWithConfidence) {
+TEST(Segmenter, PhasesAreContiguousAndCoverTheRecording) {
   const std::vector<ProposedPhase> right = propose_phases(one_gesture(60)).hands[kRight];
   ASSERT_GE(right.size(), 5u);
   EXPECT_EQ(right.front().begin, Seconds(0));
@@ -92,7 +93,7 @@ void expect_same(const std::vector<ProposedPhase>& phases, const std::vector<Pro
   }
 }
 
-TEST(Segmenter, AMirroredSignerIsToldTheSame) {
+TEST(Segmenter, AMirroredSignerGetsTheSamePhases) {
   UpperBodyTrack mirrored = one_gesture(30);
   for (UpperBody& body : mirrored.bodies) {
     std::swap(body.hands[0], body.hands[1]);
@@ -105,7 +106,7 @@ TEST(Segmenter, AMirroredSignerIsToldTheSame) {
   expect_same(propose_phases(mirrored).hands[kLeft], propose_phases(one_gesture(30)).hands[kRight], 1e-6F);
 }
 
-TEST(Segmenter, UnitAndPlaceChangeNothing) {
+TEST(Segmenter, UnitAndPositionDoNotMatter) {
   UpperBodyTrack track = one_gesture(30);
   for (UpperBody& body : track.bodies) {
     for (Eigen::Vector3f* point :
@@ -116,7 +117,7 @@ TEST(Segmenter, UnitAndPlaceChangeNothing) {
   expect_same(propose_phases(track).hands[kRight], propose_phases(one_gesture(30)).hands[kRight], 1e-3F);
 }
 
-TEST(Segmenter, TheRateOfTheCaptureHardlyMatters) {
+TEST(Segmenter, TheFrameRateHardlyMatters) {
   const std::vector<ProposedPhase> slow = propose_phases(one_gesture(30)).hands[kRight];
   const std::vector<ProposedPhase> fast = propose_phases(one_gesture(120)).hands[kRight];
   for (int k = 0; k < 20; ++k) {
@@ -144,7 +145,7 @@ TEST(Segmenter, AnAbsentHandIsLeftOutWithANotice) {
   EXPECT_THAT(proposed.notices[0].text, testing::HasSubstr("no left hand"));
 }
 
-TEST(Segmenter, OneMomentIsOnePhaseAndNoneIsNone) {
+TEST(Segmenter, OneMomentGivesOnePhaseAndNoneGivesNone) {
   UpperBodyTrack track = one_gesture(30);
   track.times.resize(1);
   track.bodies.resize(1);
@@ -152,7 +153,7 @@ TEST(Segmenter, OneMomentIsOnePhaseAndNoneIsNone) {
   EXPECT_TRUE(propose_phases({}).hands[kRight].empty());
 }
 
-TEST(Segmenter, BadNumbersAreRefused) {
+TEST(Segmenter, InvalidValuesAreRefused) {
   UpperBodyTrack backwards = one_gesture(30);
   backwards.times[7] = backwards.times[6];
   EXPECT_THROW(propose_phases(backwards), Error);
@@ -171,29 +172,29 @@ TEST(PhaseModel, PackingTwiceChangesNothing) {
   EXPECT_EQ(packed(unpacked(once)), once);
 }
 
-// A single odd frame is not worth two borders.
-TEST(PhaseModel, TheLikeliestReadingPassesOverOneOddFrame) {
+// A single outlier frame does not justify two phase borders.
+TEST(PhaseModel, TheMostLikelySequenceIgnoresOneOutlier) {
   std::vector<PhaseProbabilities> frames(21, PhaseProbabilities{0.8F, 0.05F, 0.05F, 0.05F, 0.05F});
   frames[10] = {0.3F, 0.1F, 0.4F, 0.1F, 0.1F};
-  const std::vector<MotionPhase> phases = likeliest_phases(built_in_phase_model(), frames);
+  const std::vector<MotionPhase> phases = most_likely_phases(built_in_phase_model(), frames);
   EXPECT_THAT(phases, testing::Each(MotionPhase::rest));
   PhaseModel hasty = built_in_phase_model();
   hasty.step = {};
-  EXPECT_EQ(likeliest_phases(hasty, frames)[10], MotionPhase::stroke);
+  EXPECT_EQ(most_likely_phases(hasty, frames)[10], MotionPhase::stroke);
 }
 
-TEST(PhaseProposals, ConfidenceHangsUnderEachPhase) {
+TEST(PhaseProposals, ConfidenceIsAChildOfEachPhase) {
   ProposedPhases proposed;
   proposed.hands[kRight] = {{MotionPhase::rest, Seconds(0), Seconds(0.5), 0.9F},
                             {MotionPhase::stroke, Seconds(0.5), Seconds(1.04), 0.5F},
                             {MotionPhase::hold, Seconds(1.04), Seconds(1.1), 0.5F}};
   const AnnotationDocument document = proposals_document(proposed, Seconds(1), "a.bvh");
-  ASSERT_EQ(document.tiers.size(), 2u);  // no left hand, no tiers of it
+  ASSERT_EQ(document.tiers.size(), 2u);  // no left hand, so no tiers for it
   const Tier& phases = document.tiers[0];
   const Tier& sure = document.tiers[1];
   EXPECT_EQ(phases.id, "Phase RH (proposed)");
   EXPECT_EQ(sure.parent, phases.id);
-  ASSERT_EQ(phases.annotations.size(), 2u);  // what lies after the motion's end is left out
+  ASSERT_EQ(phases.annotations.size(), 2u);  // phases after the motion's end are omitted
   EXPECT_EQ(phases.annotations[1].span, (TimeSpan{500ms, 1'000ms}));
   EXPECT_EQ(sure.annotations[0].label, "0.90");
   EXPECT_EQ(sure.annotations[0].parent, phases.annotations[0].id);

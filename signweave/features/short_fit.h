@@ -7,21 +7,21 @@
 
 namespace signweave {
 
-/// The least squares cubic through a few equal steps, in polynomials that are orthonormal over them: what each term
-/// says is independent of the others, and noise of each sample comes into each term as it is.
+/// Least-squares cubic through a few equidistant samples, in polynomials that are orthonormal over them: the
+/// coefficients are independent of each other, and the noise of the samples enters each coefficient unscaled.
 class ShortFit {
  public:
   static constexpr std::size_t kTerms = 4;
   static constexpr std::size_t kMost = 32;  ///< samples
   using Terms = std::array<Eigen::Vector3f, kTerms>;
 
-  /// Of so many samples, kTerms to kMost. Made once for all; threads may ask at the same time.
+  /// Returns the fit for this number of samples, kTerms to kMost. Built once; thread-safe.
   static const ShortFit& of(std::size_t samples) noexcept;
 
   std::size_t samples() const noexcept { return samples_; }
   /// The value of a polynomial at a sample.
   float at(std::size_t term, std::size_t sample) const noexcept { return values_[term][sample]; }
-  /// What each polynomial is to be taken times. `path` has the samples.
+  /// Returns the coefficient of each polynomial. `path` must contain samples() points.
   Terms terms_of(std::span<const Eigen::Vector3f> path) const noexcept;
 
  private:

@@ -8,12 +8,12 @@ namespace signweave {
 
 Smoother::Smoother(Seconds width, FrameRate rate, std::int64_t frames)
     : frames_(frames), hertz_(static_cast<float>(rate.hertz())) {
-  // Rounded up by less than what a frame time printed in a file is off.
+  // The tolerance is larger than the rounding error of a frame time printed in a file.
   constexpr auto kMostHalf = (kMostWindow - 1) / 2;
   const double half =
       std::clamp(std::floor(0.5 * width.count() * rate.hertz() + 1e-3), 1.0, static_cast<double>(kMostHalf));
   size_ = std::clamp<std::int64_t>(2 * static_cast<std::int64_t>(half) + 1, 1, std::max<std::int64_t>(frames, 1));
-  // With s counted from the middle, 1, s and s² − mean(s²) are orthogonal over the window: no system to solve.
+  // With s measured from the centre, 1, s and s² − mean(s²) are orthogonal over the window: no system to solve.
   const double middle = 0.5 * static_cast<double>(size_ - 1);
   double sum_2 = 0;
   for (std::int64_t i = 0; i < size_; ++i) sum_2 += std::pow(static_cast<double>(i) - middle, 2);
@@ -42,7 +42,7 @@ PathDerivatives Smoother::at(std::int64_t frame, std::span<const Eigen::Vector3f
   assert(seen.begin >= first && seen.end - first <= static_cast<std::int64_t>(path.size()));
   const std::span<const Eigen::Vector3f> points =
       path.subspan(static_cast<std::size_t>(seen.begin - first), static_cast<std::size_t>(size_));
-  // Relative to one of the points: what is far from the origin loses no digits.
+  // Relative to one of the points, so that positions far from the origin lose no precision.
   const Eigen::Vector3f& from = points[static_cast<std::size_t>(frame - seen.begin)];
   Eigen::Vector3f slope = Eigen::Vector3f::Zero();
   Eigen::Vector3f curvature = Eigen::Vector3f::Zero();

@@ -19,7 +19,7 @@ std::vector<Vector3f> parabola(std::int64_t frames, double hertz) {
   return path;
 }
 
-TEST(Smoother, FindsAParabolaAgainAtEveryFrameAndRate) {
+TEST(Smoother, ReproducesAParabolaAtEveryFrameAndRate) {
   for (const FrameRate rate : {FrameRate{24, 1}, FrameRate{60, 1}, FrameRate{120, 1}, FrameRate{30000, 1001}}) {
     const std::vector<Vector3f> path = parabola(40, rate.hertz());
     const Smoother smoother(Seconds(0.1), rate, 40);
@@ -32,7 +32,7 @@ TEST(Smoother, FindsAParabolaAgainAtEveryFrameAndRate) {
   }
 }
 
-TEST(Smoother, LooksOverATenthOfASecondAndNeverLessThanThreeFrames) {
+TEST(Smoother, UsesATenthOfASecondAndAtLeastThreeFrames) {
   const auto window = [](FrameRate rate, std::int64_t frame) {
     return Smoother(Seconds(0.1), rate, 1000).window(frame);
   };
@@ -64,7 +64,7 @@ TEST(Smoother, SmoothsNoise) {
   EXPECT_LT(std::sqrt(ours / differences), 0.2);
 }
 
-TEST(Smoother, MakesDoWithTwoFramesAndWithOne) {
+TEST(Smoother, AcceptsTwoFramesAndOne) {
   const std::vector<Vector3f> path = {{0, 0, 0}, {0.1f, 0, 0}};
   const Smoother two(Seconds(0.1), {10, 1}, 2);
   for (const std::int64_t frame : {0, 1}) {

@@ -7,13 +7,14 @@
 
 namespace signweave {
 
-/// A rig map by hand for tests: the parts that defects need, by the names that the demo and the real files give them.
+/// A rig map for tests, built by hand: the parts that defect detection needs, under the names used in the demo and the
+/// real files.
 inline RigMap rig_by_hand(const Skeleton& skeleton) {
   struct Row {
     Part part;
     std::initializer_list<std::string_view> names;
   };
-  // Biovision names: "LeftShoulder" is the shoulder beside "LeftCollar"; elsewhere it is the clavicle.
+  // Biovision names: "LeftShoulder" is the shoulder if there is a "LeftCollar"; elsewhere it is the clavicle.
   const bool collar = skeleton.find("LeftCollar").has_value();
   const Row rows[] = {
       {Part::head, {"Head", "mixamorig_Head"}},

@@ -6,10 +6,10 @@
 #include "signweave/annotation/sign.h"
 #include "signweave/core/time.h"
 
-/// For tests: signs made of one phase of each kind.
+/// For tests: signs with one phase of each kind.
 namespace signweave {
 
-/// Preparation from `begin` to `stroke`, stroke to `after`, retraction to `end`.
+/// Returns a sign with preparation from `begin` to `stroke`, stroke to `after`, retraction to `end`.
 inline Sign sign_of_three(std::string gloss, Milliseconds begin, Milliseconds stroke, Milliseconds after,
                           Milliseconds end) {
   return {.gloss = std::move(gloss),

@@ -7,12 +7,12 @@ namespace {
 
 using Phases = std::span<const PhaseFeatures>;
 
-/// A way along phases, one after another: what lies between the end of one and the begin of the next is gone straight.
-class Way {
+/// A path along consecutive phases: between the end of one and the begin of the next it is straight.
+class PhasePath {
  public:
-  Way(std::size_t side, float shoulder_width) : side_(side), shoulder_width_(shoulder_width) {}
+  PhasePath(std::size_t side, float shoulder_width) : side_(side), shoulder_width_(shoulder_width) {}
 
-  /// Begins or goes on, straight, to a place.
+  /// Starts at a position, or continues to it in a straight line.
   void go_to(const PhaseFeatures& phase, HandAt HandOver::*at) {
     const HandOver& hand = hand_of(phase);
     const Eigen::Vector3f& place = (hand.*at).position;
@@ -21,7 +21,7 @@ class Way {
     begun_ = true;
     last_ = place;
   }
-  /// Along a whole phase.
+  /// Follows a whole phase.
   void go_through(const PhaseFeatures& phase) {
     go_to(phase, &HandOver::begin);
     path_ += hand_of(phase).path_length;
@@ -67,9 +67,9 @@ std::optional<TransitionMotion> motion_between(const Sign& from, Phases from_pha
   const Phases before = to_phases.first(static_cast<std::size_t>(first - to.phases.begin()));
   TransitionMotion motion;
   for (std::size_t side = 0; side < 2; ++side) {
-    Way retraction(side, shoulder_width);
-    Way preparation(side, shoulder_width);
-    Way whole(side, shoulder_width);
+    PhasePath retraction(side, shoulder_width);
+    PhasePath preparation(side, shoulder_width);
+    PhasePath whole(side, shoulder_width);
     retraction.go_to(left, &HandOver::end);
     whole.go_to(left, &HandOver::end);
     for (const PhaseFeatures& phase : after) {

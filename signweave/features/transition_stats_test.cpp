@@ -17,13 +17,13 @@ TEST(TransitionStats, ATransitionIsRetractionPlusGapPlusPreparation) {
   EXPECT_EQ(found[0].preparation, 250ms);
 }
 
-TEST(TransitionStats, ARestIsNoTransition) {
+TEST(TransitionStats, ARestIsNotATransition) {
   std::vector<Sign> signs = {sign_of_three("A", 0ms, 100ms, 300ms, 400ms),
                              sign_of_three("B", 501ms, 600ms, 700ms, 800ms)};
   EXPECT_TRUE(transitions_in(signs).empty());
-  signs[0].inferred = true;  // without phases the gap is all there is
+  signs[0].inferred = true;  // without phases only the gap is known
   EXPECT_EQ(transitions_in(signs).size(), 1u);
-  signs[1] = sign_of_three("B", 415ms, 500ms, 600ms, 700ms);  // glosses that touch tell nothing
+  signs[1] = sign_of_three("B", 415ms, 500ms, 600ms, 700ms);  // adjacent glosses give no information
   EXPECT_TRUE(transitions_in(signs).empty());
   signs[1] = sign_of_three("B", 1'401ms, 1'500ms, 1'600ms, 1'700ms);
   EXPECT_TRUE(transitions_in(signs).empty());
@@ -36,7 +36,7 @@ TEST(TransitionStats, TiersAreNotMixed) {
   EXPECT_TRUE(transitions_in(signs).empty());
 }
 
-TEST(TransitionStats, AnnotatedTransitionsOutweighInferredOnes) {
+TEST(TransitionStats, AnnotatedTransitionsTakePrecedenceOverInferredOnes) {
   const std::vector<AnnotatedTransition> mixed = {
       {.span = {0ms, 600ms}}, {.span = {0ms, 800ms}}, {.span = {0ms, 5ms}, .inferred = true}};
   const TransitionStats stats = summarize(mixed);
@@ -79,7 +79,7 @@ TEST(TransitionStats, InferredTransitionsHaveNoParts) {
   EXPECT_EQ(of.retraction.duration.count, 0u);
 }
 
-TEST(TransitionStats, PairsAreToldByHowOftenTheyOccur) {
+TEST(TransitionStats, PairsAreSortedByFrequency) {
   const std::vector<RecordedTransition> all = {recorded("C", "D", 100ms), recorded("A", "B", 400ms),
                                                recorded(" A", "B", 800ms), recorded("B", "A", 900ms)};
   const std::vector<PairStats> pairs = by_pair(all);

@@ -12,13 +12,13 @@ constexpr Part kKnuckles[] = {finger_part(Side::left, Finger::index, FingerPoint
                               finger_part(Side::left, Finger::ring, FingerPoint::proximal),
                               finger_part(Side::left, Finger::little, FingerPoint::proximal)};
 
-/// The knuckle of the right hand that answers to one of the left.
+/// Returns the corresponding knuckle on the given side.
 Part on_side(Side side, Part knuckle) {
   const std::size_t hand = kFingers.size() * kFingerPoints;
   return static_cast<Part>(static_cast<std::size_t>(knuckle) + static_cast<std::size_t>(side) * hand);
 }
 
-/// The first of some parts that the map has.
+/// Returns the first of some parts that the map has.
 std::optional<Part> first_of(const RigMap& rig, std::initializer_list<Part> parts) {
   for (const Part part : parts) {
     if (rig.has(part)) return part;
@@ -26,7 +26,8 @@ std::optional<Part> first_of(const RigMap& rig, std::initializer_list<Part> part
   return std::nullopt;
 }
 
-/// The signer's left in the model's horizontal plane: from right shoulder (else hip) to left, over the whole motion.
+/// Returns the signer's left in the model's horizontal plane: from right shoulder (else hip) to left, over the whole
+/// motion.
 Eigen::Vector3f left_of(const Eigen::Vector3f& across) {
   const Eigen::Vector3f level(across.x(), 0, across.z());
   return level.norm() > 1e-6F ? level.normalized() : Eigen::Vector3f::UnitX();
@@ -45,9 +46,10 @@ UpperBodyTrack upper_body_of(const Motion& motion, const RigMap& rig) {
   const std::optional<Part> low = first_of(rig, {Part::pelvis, Part::spine});
   const std::optional<Part> high = first_of(rig, {Part::neck, Part::chest, Part::spine});
   if (!top || !low || !high) {
-    throw Error(ErrorCode::not_found,
-                "no joint of the motion is known as head or trunk, by which the hands are measured; a mapping file can "
-                "name head, neck and pelvis");
+    throw Error(
+        ErrorCode::not_found,
+        "no joint of the motion is known as head or trunk, relative to which hands are measured; a mapping file can "
+        "name head, neck and pelvis");
   }
   const auto frames = static_cast<std::size_t>(motion.frame_count());
   track.times.reserve(frames);
@@ -83,7 +85,7 @@ UpperBodyTrack upper_body_of(const Motion& motion, const RigMap& rig) {
     track.times.push_back(static_cast<double>(frame) * motion.rate().frame_time());
     track.bodies.push_back(body);
   }
-  // One facing for the whole motion: the resting place must not move when the signer turns a little.
+  // A single orientation for the whole motion: the resting position must not move when the signer turns a little.
   const Eigen::Vector3f left = left_of(across);
   Eigen::Matrix3f signer_from_model;
   signer_from_model.row(0) = left;

@@ -29,7 +29,7 @@ Posed person_facing_x() {
   return person;
 }
 
-TEST(UpperBodyOf, StandsInTheSignersAxes) {
+TEST(UpperBodyOf, UsesTheSignersAxes) {
   const Posed person = person_facing_x();
   const UpperBodyTrack track = upper_body_of(person.motion, person.rig);
   ASSERT_EQ(track.times.size(), 3u);
@@ -42,7 +42,7 @@ TEST(UpperBodyOf, StandsInTheSignersAxes) {
   EXPECT_TRUE(body.hands[0].isApprox(body.wrists[0]));  // no knuckles
 }
 
-TEST(UpperBodyOf, TheMiddleOfThePalmWhereThereAreKnuckles) {
+TEST(UpperBodyOf, UsesTheCentreOfThePalmIfThereAreKnuckles) {
   Posed person = person_facing_x();
   PartPlace& knuckle = person.rig[finger_part(Side::right, Finger::middle, FingerPoint::proximal)];
   knuckle = person.rig[Part::right_hand];
@@ -51,7 +51,7 @@ TEST(UpperBodyOf, TheMiddleOfThePalmWhereThereAreKnuckles) {
   EXPECT_TRUE((body.hands[1] - body.wrists[1]).isApprox(Eigen::Vector3f(0, 0, 0.05F), 1e-5F));
 }
 
-TEST(UpperBodyOf, OneHandMayBeAbsentNotBothNorTheTrunk) {
+TEST(UpperBodyOf, OneHandMayBeAbsentButNotBothNorTheTrunk) {
   Posed person = person_facing_x();
   person.rig[Part::left_hand] = {};
   const UpperBodyTrack track = upper_body_of(person.motion, person.rig);

@@ -8,8 +8,8 @@
 namespace signweave::annotation_file {
 namespace {
 
-/// The name of the first element, for ASCII names in any of the encodings that are read: in the wide ones the letters
-/// stand among zeros.
+/// The name of the first element, if it is ASCII, in any of the supported encodings: in the wide ones the letters are
+/// separated by zero bytes.
 std::string root_name(std::string_view text) {
   constexpr std::size_t kMost = std::size_t{1} << 20;  // a prolog is short
   std::string plain(text.substr(0, kMost));
@@ -21,7 +21,7 @@ std::string root_name(std::string_view text) {
       skip = rest.find("?>");
     } else if (rest.starts_with("<!--")) {
       skip = rest.find("-->");
-    } else if (rest.starts_with("<!")) {  // a DOCTYPE, whose own declarations stand in brackets
+    } else if (rest.starts_with("<!")) {  // a DOCTYPE, whose own declarations are in brackets
       const std::size_t bracket = rest.find_first_of("[>");
       skip = bracket == rest.npos || rest[bracket] == '>' ? bracket : rest.find(']', bracket);
     } else {
@@ -56,16 +56,16 @@ File read_text(std::string name, std::string_view text, std::string_view specifi
 std::uint64_t fingerprint(const std::filesystem::path& path) {
   const std::uint64_t print = file_checksum(path);
   if (fold_case(path.extension().string()) != ".anvil") return print;
-  std::filesystem::path beside;
+  std::filesystem::path specification;
   try {
-    beside = anvil::specification_of(path);
-  } catch (const Error& error) {  // reading it tells what is wrong
+    specification = anvil::specification_of(path);
+  } catch (const Error& error) {  // reading the file reports the error
     if (error.code() != ErrorCode::bad_input) throw;
   }
-  if (beside.empty()) return print;
+  if (specification.empty()) return print;
   ByteWriter both;
   both.number(print);
-  both.number(file_checksum(beside));
+  both.number(file_checksum(specification));
   return checksum(both.bytes());
 }
 

@@ -62,7 +62,7 @@ TEST(MotionFiles, SayWhichOptionsTheyPassOver) {
   EXPECT_EQ(read.format, "BVH");
   EXPECT_TRUE(read.layout);
   ASSERT_FALSE(read.notices.empty());
-  EXPECT_EQ(read.notices.back().text, "--take says nothing about BVH files, and was passed over");
+  EXPECT_EQ(read.notices.back().text, "take does not apply to BVH files and was ignored");
   EXPECT_EQ(motion_file::told(file, options), "unit=0.01");
 }
 

@@ -40,7 +40,7 @@ bvh::Layout layout_of(const FileContent& content) {
   // A frame time printed for another rate does not apply.
   const std::optional<SnappedRate> printed = snap_frame_time(layout.frame_time);
   if (printed && printed->rate != content.motion->rate()) layout.frame_time.clear();
-  return bvh::with(std::move(layout), content.wishes);
+  return bvh::with(std::move(layout), content.layout_changes);
 }
 
 /// One cell of a contact sheet per stroke and per junction: what a person wants to look at.

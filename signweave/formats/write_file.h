@@ -26,7 +26,7 @@ struct FileContent {
   const AnnotationDocument* document = nullptr;  ///< for .eaf
   const Synthesis* synthesis = nullptr;          ///< for .json, .svg and .eaf: its signs, sources and junctions
   std::optional<bvh::Layout> layout{};           ///< for .bvh; none: bvh::default_layout
-  bvh::LayoutWishes wishes{};                    ///< changes to the layout
+  bvh::LayoutChanges layout_changes{};           ///< changes to the layout
   std::string title{};
   RigNames rig{};              ///< joints named by a mapping file
   bool signing_space = false;  ///< for .svg: draw the signing space behind each figure

@@ -12,10 +12,10 @@
 #include "signweave/kv/fault.h"
 #include "signweave/kv/versioned_store.h"
 
-// A store is one hash database in data.bdb, and logs. The environment is private to the process: VersionedStore sees to
-// it that nobody else has the folder open, and that changes never run beside each other or beside a read, which is what
-// Berkeley DB's lock table would be for; its pages have latches of their own, so that reads may run beside each other,
-// and beside a commit or a checkpoint, which write pages and logs but change none.
+// A store is one hash database in data.bdb, plus logs. The environment is private to the process. VersionedStore
+// ensures that no other process has the folder open and that a change never runs concurrently with another change or a
+// read, so Berkeley DB's lock table is not needed. Its pages have their own latches, so reads may run concurrently with
+// each other and with a commit or a checkpoint, which write pages and logs but modify none.
 
 namespace signweave::kv {
 
@@ -24,21 +24,21 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kFile = "data.bdb";
-// A write may end at any page of the kernel's when its process is killed, and at any block of the file system's when
-// the power goes. Berkeley DB's log cannot mend a page of which only a part was written, so a page is no larger than
-// either. Values longer than a quarter of it lie on pages of their own.
+// A write may stop at any kernel page when its process is killed, and at any file system block when power fails.
+// Berkeley DB's log cannot repair a partly written page, so a page is no larger than either. Values longer than a
+// quarter of a page are stored on their own pages.
 constexpr std::uint32_t kPageSize = 4096;
-// The cache takes memory as it fills. A page that is not in it costs ten times as much as one that is.
+// The cache allocates memory as it fills. A page outside the cache costs ten times as much as one inside.
 constexpr std::uint64_t kSmallestCache = 256u << 20;
 constexpr std::uint64_t kLargestCache = 1u << 30;
-constexpr std::uint32_t kLogFileBytes = 1u << 20;  // one stays when the store is closed
+constexpr std::uint32_t kLogFileBytes = 1u << 20;  // one remains when the store is closed
 constexpr std::uint32_t kLogBufferBytes = 256u << 10;
-constexpr std::uint64_t kCheckpointBytes = 16u << 20;  // what a recovery must read, and the logs take, at most
-constexpr std::uint64_t kBesideEntry = kPageSize;      // the end of a value lies on a page of its own
+constexpr std::uint64_t kCheckpointBytes = 16u << 20;  // limit of what a recovery must read and of the size of the logs
+constexpr std::uint64_t kEntryOverhead = kPageSize;    // the end of a value is on its own page
 constexpr std::uint32_t kHashMagic = 0x061561;
 constexpr int kFileMode = 0664;
 
-// Berkeley DB calls back in the thread that met the fault, just before the call returns it.
+// Berkeley DB calls this in the thread that met the error, just before the failing call returns.
 thread_local std::string last_message;
 
 void keep_message(const DB_ENV*, const char*, const char* message) {
@@ -48,7 +48,7 @@ void drop_message(const DB_ENV*, const char*) {}
 
 DBT to_read(ByteSpan bytes) {
   DBT item{};
-  item.data = const_cast<std::byte*>(bytes.data());  // it is only read
+  item.data = const_cast<std::byte*>(bytes.data());  // only read
   item.size = static_cast<std::uint32_t>(bytes.size());
   return item;
 }
@@ -72,7 +72,7 @@ DBT to_fill(Bytes& buffer) {
          {ErrorCode::unsupported, "the store was made by another version of Berkeley DB; open it with that one"});
   }
   if (code == ENOENT || (code > 0 && code != EINVAL)) fail_system(folder, doing, code);
-  for (const int error : {ENOSPC, EDQUOT, EFBIG}) {  // it gives up where the disk ends, and says only here why
+  for (const int error : {ENOSPC, EDQUOT, EFBIG}) {  // at the disk's end it panics: errno says why
     if (message.find(std::strerror(error)) != std::string::npos) fail_system(folder, doing, error);
   }
   fail(folder, doing,
@@ -81,15 +81,15 @@ DBT to_fill(Bytes& buffer) {
                                 "does not help"});
 }
 
-/// Number `index` of the 32-bit words at the head of the file.
+/// The 32-bit word `index` at the head of the file.
 std::uint32_t word(ByteSpan head, std::size_t index) {
   std::uint32_t value = 0;
   std::memcpy(&value, head.data() + 4 * index, sizeof value);
   return value;
 }
 
-/// Refuses what is no Berkeley DB hash file, and, where every page of it should be there, a file shorter than its own
-/// head says.
+/// Rejects a file that is not a Berkeley DB hash file or, if all its pages should be present, is shorter than its head
+/// says.
 void check_head(const fs::path& folder, bool whole) {
   const fs::path path = folder / kFile;
   Bytes head(72);
@@ -101,15 +101,15 @@ void check_head(const fs::path& folder, bool whole) {
     throw Error(ErrorCode::corrupt, path.string() + ": " + what + "; restore it from a copy");
   };
   if (!file) refuse("the file is cut short (" + std::to_string(bytes) + " bytes)");
-  if (word(head, 3) != kHashMagic || word(head, 5) != kPageSize) refuse("this is no file of Berkeley DB as we make it");
+  if (word(head, 3) != kHashMagic || word(head, 5) != kPageSize) refuse("this is not a Berkeley DB file of signweave");
   const std::uint64_t wanted = (std::uint64_t{word(head, 8)} + 1) * kPageSize;
   if (whole && bytes < wanted) {
     refuse("the file is cut short (" + std::to_string(bytes) + " bytes of " + std::to_string(wanted) + ")");
   }
 }
 
-/// Where a write met the end of the disk, or of what a file may have, the file ends within a page, and Berkeley DB
-/// would refuse it. What was committed of that page lies in the logs.
+/// If a write reached the end of the disk or the file size limit, the file ends within a page, and Berkeley DB would
+/// reject it. The committed content of that page is in the logs.
 void drop_part_of_a_page(const fs::path& folder) {
   std::error_code error;
   const std::uint64_t bytes = fs::file_size(folder / kFile, error);
@@ -125,8 +125,7 @@ bool has_logs(const fs::path& folder) {
   return false;
 }
 
-/// Makes a file that was closed in order forget the logs that it was written with: they are gone, and nothing in them
-/// is needed any more.
+/// Makes a file that was closed in order forget its logs: they are gone, and no longer needed.
 void forget_logs(const fs::path& folder) {
   DB_ENV* env = nullptr;
   int code = ::db_env_create(&env, 0);
@@ -139,9 +138,9 @@ void forget_logs(const fs::path& folder) {
   if (code != 0) fail_berkeley(folder, "opening the store", code);
 }
 
-/// Before a store is opened for writing: what Berkeley DB's own recovery would stumble over.
-void mend(const fs::path& folder, bool closed) {
-  check_head(folder, closed);  // what is none of ours is left alone
+/// Before a store is opened for writing: fixes what Berkeley DB's own recovery cannot handle.
+void prepare_for_recovery(const fs::path& folder, bool closed) {
+  check_head(folder, closed);  // foreign files stay unchanged
   if (has_logs(folder)) {
     if (!closed) drop_part_of_a_page(folder);
     return;
@@ -154,7 +153,7 @@ void mend(const fs::path& folder, bool closed) {
 
 class BerkeleyStore final : public PlainStore {
  public:
-  /// `make`: makes the file too.
+  /// `make`: also creates the file.
   BerkeleyStore(const fs::path& folder, Access access, bool make) : folder_(folder), access_(access) {
     try {
       open(make);
@@ -200,7 +199,7 @@ class BerkeleyStore final : public PlainStore {
       if (code == DB_NOTFOUND) return;
       if (code != 0) refuse("reading", code);
       if (key.size == 0) continue;  // the counter
-      // Asking for the value without room for it tells its size, and reads none of it.
+      // Requesting the value with an empty buffer returns its size without reading it.
       DBT same{};
       same.flags = DB_DBT_USERMEM | DB_DBT_PARTIAL;
       DBT value{};
@@ -214,8 +213,8 @@ class BerkeleyStore final : public PlainStore {
   void begin(std::size_t entries, std::uint64_t bytes) override {
     last_message.clear();
     entries_before_ = entries_;
-    // Pages reach the file long after their commit, and must find room then.
-    const std::uint64_t wanted = waiting_ + bytes + entries * kBesideEntry + 4 * kPageSize;
+    // Pages reach the file long after their commit, and there must be room for them then.
+    const std::uint64_t wanted = waiting_ + bytes + entries * kEntryOverhead + 4 * kPageSize;
     require_room(folder_ / kFile, wanted);
     int file = -1;
     if (db_->fd(db_, &file) == 0) reserve(folder_, file, size_of_file(folder_, kFile, "beginning to write"), wanted);
@@ -245,10 +244,10 @@ class BerkeleyStore final : public PlainStore {
   }
 
   void commit() override {
-    DB_TXN* const transaction = std::exchange(transaction_, nullptr);  // gone, whatever it returns
+    DB_TXN* const transaction = std::exchange(transaction_, nullptr);  // over, whatever the commit returns
     const int code = transaction->commit(transaction, 0);
     if (code != 0) refuse("committing", code);
-    // What was committed lies in the log whatever becomes of this, and the next commit tries again.
+    // The committed change is in the log whatever the checkpoint does, and the next commit tries it again.
     if (waiting_ >= kCheckpointBytes) {
       const int written = env_->txn_checkpoint(env_, 0, 0, 0);
       if (written == 0) waiting_ = 0;
@@ -293,10 +292,10 @@ class BerkeleyStore final : public PlainStore {
   DB_ENV* env_ = nullptr;
   DB* db_ = nullptr;
   DB_TXN* transaction_ = nullptr;
-  mutable std::atomic<bool> broken_ = false;  ///< the environment has given up ("panic")
+  mutable std::atomic<bool> broken_ = false;  ///< the environment failed ("panic")
   std::uint64_t entries_ = 0;
   std::uint64_t entries_before_ = 0;
-  std::uint64_t waiting_ = 0;  ///< bytes that have been committed and may not yet be in the main file
+  std::uint64_t waiting_ = 0;  ///< committed bytes that may not yet be in the main file
 };
 
 void BerkeleyStore::open(bool make) {
@@ -316,7 +315,8 @@ void BerkeleyStore::open(bool make) {
   need(env_->set_lg_max(env_, kLogFileBytes));
   need(env_->set_lg_bsize(env_, kLogBufferBytes));
   need(env_->log_set_config(env_, DB_LOG_AUTO_REMOVE, 1));
-  // A reader needs no logs: what was closed in order lies in the main file. And it may not be able to write one.
+  // A reader needs no logs: after an orderly close everything is in the main file. It may also lack the permission to
+  // write one.
   const std::uint32_t parts = writing ? DB_INIT_TXN | DB_INIT_LOG | DB_RECOVER : 0;
   need(env_->open(env_, folder_.c_str(), DB_PRIVATE | DB_THREAD | DB_CREATE | DB_INIT_MPOOL | parts, kFileMode));
   need(::db_create(&db_, env_, 0));
@@ -330,7 +330,7 @@ void BerkeleyStore::open(bool make) {
     put_counter();
     return;
   }
-  check_head(folder_, true);  // a recovery writes all that was missing
+  check_head(folder_, true);  // a recovery writes everything that was missing
   Bytes buffer(sizeof entries_);
   const std::optional<ByteSpan> counter = get({}, buffer);
   if (!counter || counter->size() != sizeof entries_) {
@@ -340,8 +340,8 @@ void BerkeleyStore::open(bool make) {
   std::memcpy(&entries_, counter->data(), sizeof entries_);
 }
 
-// The number of entries lies under the empty key, which nobody else may use: Berkeley DB itself can only count them
-// all.
+// The number of entries is stored under the empty key, which is otherwise invalid: Berkeley DB itself can only count
+// all entries.
 void BerkeleyStore::put_counter() {
   DBT name{};
   DBT value = to_read(std::as_bytes(std::span(&entries_, 1)));
@@ -350,7 +350,7 @@ void BerkeleyStore::put_counter() {
 }
 
 void BerkeleyStore::release() noexcept {
-  if (broken_ && env_) env_->set_flags(env_, DB_NOPANIC, 1);  // else closing would give nothing back
+  if (broken_ && env_) env_->set_flags(env_, DB_NOPANIC, 1);  // otherwise closing would free nothing
   if (transaction_) transaction_->abort(transaction_);
   if (db_) db_->close(db_, DB_NOSYNC);
   if (env_) env_->close(env_, 0);
@@ -369,12 +369,12 @@ constexpr PlainEngine kBerkeley = {
     .logs = "log.",
     .version = version,
     .longest_key = 511,
-    .largest_value = 0xF0000000,  // sizes have 32 bits, and a buffer is a little larger than its value
+    .largest_value = 0xF0000000,  // sizes have 32 bits, and a buffer is slightly larger than its value
     .make = [](const fs::path& folder) -> std::unique_ptr<PlainStore> {
       return std::make_unique<BerkeleyStore>(folder, Access::read_write, true);
     },
     .open = [](const fs::path& folder, Access access, bool closed) -> std::unique_ptr<PlainStore> {
-      if (access == Access::read_write) mend(folder, closed);
+      if (access == Access::read_write) prepare_for_recovery(folder, closed);
       return std::make_unique<BerkeleyStore>(folder, access, false);
     },
 };

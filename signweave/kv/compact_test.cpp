@@ -21,7 +21,7 @@ class CompactTest : public testing::TestWithParam<std::string> {
   CompactTest() { create(path(), GetParam()); }
   fs::path path() const { return folder_.path() / "db"; }
 
-  /// `changes` changes stay, and as many more were there and went.
+  /// Applies `changes` changes that stay, and as many that are erased again.
   void fill_with_gaps(int changes) const {
     const auto store = open(path(), Access::read_write);
     fill(*store, 2 * changes);
@@ -37,7 +37,7 @@ class CompactTest : public testing::TestWithParam<std::string> {
 
 INSTANTIATE_TEST_SUITE_P(Engines, CompactTest, testing::ValuesIn(engines()), [](const auto& row) { return row.param; });
 
-TEST_P(CompactTest, GivesBackWhatIsFreeAndNothingElse) {
+TEST_P(CompactTest, FreesUnusedSpaceAndNothingElse) {
   fill_with_gaps(40);
   const std::optional<std::uint64_t> free = open(path(), Access::read_only)->info().bytes_free;
   const Compacted done = compact(path());
@@ -46,13 +46,13 @@ TEST_P(CompactTest, GivesBackWhatIsFreeAndNothingElse) {
   EXPECT_FALSE(fs::exists(path() / "compacting"));
   for (const fs::directory_entry& entry : fs::directory_iterator(path())) {
     const std::string name = entry.path().filename().string();
-    EXPECT_FALSE(name.starts_with("log.") || name.ends_with(".wal")) << name << " is of the old file";
+    EXPECT_FALSE(name.starts_with("log.") || name.ends_with(".wal")) << name << " belongs to the old file";
   }
   {
     const auto store = open(path(), Access::read_write);
     EXPECT_EQ(store->info().entries, 40u * 20u);
     read_everything(*store, 40);
-    fill(*store, 60);  // it goes on as any other
+    fill(*store, 60);  // the store remains usable
   }
   read_everything(*open(path(), Access::read_only), 60);
 }
@@ -105,7 +105,7 @@ TEST_P(CompactTest, IsRefusedWhileAnotherProcessReads) {
   ::close(ready[1]);
 }
 
-TEST_P(CompactTest, WhatIsStoppedLeavesTheStoreAsItWas) {
+TEST_P(CompactTest, ACancelledCompactionLeavesTheStoreUnchanged) {
   fill_with_gaps(30);
   const auto stop = [](double fraction) {
     if (fraction >= 0.5) throw Error(ErrorCode::cancelled, "stopped");
@@ -115,7 +115,7 @@ TEST_P(CompactTest, WhatIsStoppedLeavesTheStoreAsItWas) {
   read_everything(*open(path(), Access::read_write), 30);
 }
 
-TEST_P(CompactTest, AKillAtAnyTimeLeavesTheOldOrTheNew) {
+TEST_P(CompactTest, AKillAtAnyTimeLeavesTheOldOrTheNewFile) {
   fill_with_gaps(30);
   for (int round = 0; round < 12; ++round) {
     const pid_t child = ::fork();
@@ -135,8 +135,8 @@ TEST_P(CompactTest, AKillAtAnyTimeLeavesTheOldOrTheNew) {
   }
 }
 
-/// Who opens the store while it is compacted waits, and then sees and changes the new file.
-TEST_P(CompactTest, WhoOpensItMeanwhileGetsTheNewFileOrIsRefused) {
+/// A process that opens the store during compaction waits, and then reads and changes the new file.
+TEST_P(CompactTest, OpeningDuringCompactionGetsTheNewFileOrIsRefused) {
   fill_with_gaps(30);
   for (int round = 0; round < 6; ++round) {
     const pid_t child = ::fork();
@@ -170,7 +170,7 @@ TEST_P(CompactTest, WhoOpensItMeanwhileGetsTheNewFileOrIsRefused) {
   }
 }
 
-TEST(Compact, WhatIsNoStoreIsRefused) {
+TEST(Compact, AFolderWithoutStoreIsRefused) {
   const TestFolder folder;
   EXPECT_EQ(refusal_of([&] { compact(folder.path()); }), ErrorCode::not_found);
   EXPECT_FALSE(fs::exists(folder / "compacting"));

@@ -13,8 +13,8 @@
 namespace signweave::kv {
 namespace {
 
-// Change number i puts kParts records that tell i, one of them large, replaces "last", and takes away what change
-// i - kKept put.
+// Change number i puts kParts records that contain i, one of them large, replaces "last", and erases what change i -
+// kKept put.
 constexpr std::uint32_t kParts = 4;
 constexpr std::uint32_t kKept = 20;
 
@@ -37,7 +37,7 @@ void apply(KvStore& store, std::uint32_t change) {
   transaction->commit();
 }
 
-/// Applies changes for ever, and acknowledges each through `acknowledge` once it is committed.
+/// Applies changes in an endless loop, and acknowledges each through `acknowledge` once it is committed.
 [[noreturn]] void write_until_killed(const std::filesystem::path& folder, std::uint32_t next, int acknowledge) {
   try {
     const auto store = open(folder, Access::read_write);
@@ -50,7 +50,7 @@ void apply(KvStore& store, std::uint32_t change) {
   ::_exit(1);
 }
 
-/// Lets a child write for `time`, kills it, and returns the last change that it acknowledged.
+/// Lets a child process write for `time`, kills it, and returns the last change that it acknowledged.
 std::uint32_t write_and_kill(const std::filesystem::path& folder, std::uint32_t next, std::chrono::microseconds time) {
   int ends[2];
   if (::pipe(ends) != 0) return 0;
@@ -78,7 +78,7 @@ class CrashTest : public testing::TestWithParam<std::string> {};
 
 INSTANTIATE_TEST_SUITE_P(Engines, CrashTest, testing::ValuesIn(engines()), [](const auto& row) { return row.param; });
 
-TEST_P(CrashTest, AfterKill9EveryAcknowledgedChangeIsThereAndNoneByHalf) {
+TEST_P(CrashTest, AfterKill9EveryAcknowledgedChangeIsStoredAndNoneIsPartial) {
   TestFolder folder;
   create(folder.path() / "db", GetParam());
   std::mt19937 random(7);
@@ -91,7 +91,7 @@ TEST_P(CrashTest, AfterKill9EveryAcknowledgedChangeIsThereAndNoneByHalf) {
     const auto snapshot = store->read();
     last = static_cast<std::uint32_t>(std::stoul(std::string(text_of(snapshot->get(bytes_of("last")).value()))));
     ASSERT_GE(last, acknowledged);
-    ASSERT_LE(last, acknowledged + 1) << "at most the one change that was under way";
+    ASSERT_LE(last, acknowledged + 1) << "at most the one change that was in progress";
     for (std::uint32_t change = last > 2 * kKept ? last - 2 * kKept : 1; change <= last + 2; ++change) {
       const bool kept = change <= last && change + kKept > last;
       for (std::uint32_t part = 0; part < kParts; ++part) {

@@ -7,18 +7,18 @@
 
 #include "signweave/kv/kv_store.h"
 
-/// Inside this module only: what an engine must offer to stand in the table of kv_store.cpp.
+/// Internal to this module: the interface of an engine in the table of kv_store.cpp.
 namespace signweave::kv {
 
 /// One row of the engine table.
 struct Engine {
   std::string_view name;
-  std::string_view file;  ///< its main file, by which a folder is recognised
-  /// Makes an empty store in a folder that exists and is empty. Null where this build lacks the engine.
+  std::string_view file;  ///< its main file, by which its folder is recognised
+  /// Creates an empty store in an existing empty folder. Null if this build lacks the engine.
   void (*create)(const std::filesystem::path& folder);
-  /// Opens a store whose file is there.
+  /// Opens a store whose main file exists.
   std::unique_ptr<KvStore> (*open)(const std::filesystem::path& folder, Access access);
-  /// Writes its main file anew without free space: `compacting`, an empty folder inside it, is for the new one.
+  /// Rewrites the main file without free space; `compacting` is an empty subfolder of `folder` for the new file.
   void (*compact)(const std::filesystem::path& folder, const std::filesystem::path& compacting,
                   const std::function<void(double fraction)>& progress);
 };

@@ -2,11 +2,11 @@
 
 #include <pthread.h>
 
-/// Inside this module only.
+/// Internal to this module.
 namespace signweave::kv {
 
-/// A lock for many readers or one writer under which readers in a loop cannot starve the writer, as they can under
-/// std::shared_mutex of glibc. A thread must not take it twice.
+/// A lock for many readers or one writer, under which readers in a loop cannot starve the writer, as they can under
+/// glibc's std::shared_mutex. Not recursive.
 class FairLock {
  public:
   FairLock() {

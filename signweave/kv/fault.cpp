@@ -14,9 +14,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// What a change may need beside its own bytes: pages that split, and logs.
-constexpr std::uint64_t kBesideOnDisk = 4u << 20;
-constexpr std::uint64_t kBesideInFile = 32u << 10;
+// What a change may need in addition to its own bytes: split pages and logs.
+constexpr std::uint64_t kExtraOnDisk = 4u << 20;
+constexpr std::uint64_t kExtraInFile = 32u << 10;
 
 struct Meaning {
   int error;
@@ -25,15 +25,15 @@ struct Meaning {
 };
 
 constexpr Meaning kMeanings[] = {
-    {ENOSPC, ErrorCode::io, "disk full, this change was not kept; free some space and try again"},
-    {EDQUOT, ErrorCode::io, "disk quota used up, this change was not kept; free some space and try again"},
-    {EFBIG, ErrorCode::io, "the file may not grow further, this change was not kept; raise the limit on file size"},
+    {ENOSPC, ErrorCode::io, "disk full, this change was not stored; free some space and try again"},
+    {EDQUOT, ErrorCode::io, "disk quota used up, this change was not stored; free some space and try again"},
+    {EFBIG, ErrorCode::io, "the file may not grow further, this change was not stored; raise the limit on file size"},
     {EIO, ErrorCode::io,
-     "disk full, limited or failing, this change was not kept; free some space or check the disk, and try again"},
+     "disk full, limited or failing, this change was not stored; free some space or check the disk, and try again"},
     {ENOMEM, ErrorCode::io, "not enough memory; raise the limit on virtual memory (ulimit -v)"},
     {EACCES, ErrorCode::io, "no permission; change the permissions of the folder and its files"},
     {EPERM, ErrorCode::io, "no permission; change the permissions of the folder and its files"},
-    {EROFS, ErrorCode::io, "the disk is mounted for reading only; mount it for writing"},
+    {EROFS, ErrorCode::io, "the disk is mounted read-only; mount it writable"},
 };
 
 bool disk_is_full(const fs::path& folder) {
@@ -44,7 +44,7 @@ bool disk_is_full(const fs::path& folder) {
 }  // namespace
 
 std::optional<Fault> system_fault(const fs::path& folder, int error) {
-  // A disk becomes full with a short write, and engines report that as EIO.
+  // A full disk first causes a short write, which engines report as EIO.
   if (error == EIO && disk_is_full(folder)) error = ENOSPC;
   const auto* const meaning =
       std::find_if(std::begin(kMeanings), std::end(kMeanings), [&](const Meaning& m) { return m.error == error; });
@@ -65,14 +65,14 @@ void fail_system(const fs::path& folder, std::string_view doing, int error) {
 void require_room(const fs::path& file, std::uint64_t bytes) {
   const fs::path folder = file.parent_path();
   struct statvfs disk {};
-  if (::statvfs(folder.c_str(), &disk) == 0 && disk.f_bavail * disk.f_frsize < 3 * bytes + kBesideOnDisk) {
+  if (::statvfs(folder.c_str(), &disk) == 0 && disk.f_bavail * disk.f_frsize < 3 * bytes + kExtraOnDisk) {
     fail_system(folder, "committing", ENOSPC);
   }
   rlimit limit{};
   std::error_code error;
   const std::uintmax_t size = fs::file_size(file, error);
   if (!error && ::getrlimit(RLIMIT_FSIZE, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY &&
-      size + bytes + bytes / 4 + kBesideInFile > limit.rlim_cur) {
+      size + bytes + bytes / 4 + kExtraInFile > limit.rlim_cur) {
     fail_system(folder, "committing", EFBIG);
   }
 }

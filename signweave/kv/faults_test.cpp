@@ -9,7 +9,7 @@
 #include "signweave/kv/test_child.h"
 #include "signweave/kv/test_folder.h"
 
-/// Damage, limits and deaths, which every engine must meet with a clear error or an intact answer.
+/// Tests of damage, limits and kills: every engine must respond with a clear error or an intact answer.
 namespace signweave::kv {
 namespace {
 
@@ -34,7 +34,7 @@ class FaultsTest : public testing::TestWithParam<std::string> {
 
 INSTANTIATE_TEST_SUITE_P(Engines, FaultsTest, testing::ValuesIn(engines()), [](const auto& row) { return row.param; });
 
-TEST_P(FaultsTest, AFileCutShortIsRefusedWhereReadingItWouldKill) {
+TEST_P(FaultsTest, ATruncatedFileIsRefusedIfReadingItWouldCrash) {
   made(30);
   const auto size = fs::file_size(main_file());
   for (std::uint64_t cut = 0; cut < size; cut += size / 40) {
@@ -51,7 +51,7 @@ TEST_P(FaultsTest, AFileCutShortIsRefusedWhereReadingItWouldKill) {
   }
 }
 
-TEST_P(FaultsTest, AFileOfSomethingElseIsCorruptNotCrashing) {
+TEST_P(FaultsTest, AForeignFileIsCorruptAndDoesNotCrash) {
   for (const std::string& content : {std::string(), std::string("hello"), std::string(100'000, 'x')}) {
     for (const Access access : {Access::read_write, Access::read_only}) {
       fs::create_directories(path());
@@ -60,17 +60,17 @@ TEST_P(FaultsTest, AFileOfSomethingElseIsCorruptNotCrashing) {
       EXPECT_TRUE(result.finished);
       EXPECT_EQ(result.code, ErrorCode::corrupt) << result.text;
       EXPECT_THAT(result.text, HasSubstr(main_file().string()));
-      EXPECT_EQ(fs::file_size(main_file()), content.size()) << "and it was left as it is";
+      EXPECT_EQ(fs::file_size(main_file()), content.size()) << "and it was left unchanged";
       fs::remove_all(path());
     }
   }
 }
 
-TEST_P(FaultsTest, ADiskThatIsFullIsACleanErrorAndTheOldContentStays) {
+TEST_P(FaultsTest, AFullDiskIsACleanErrorAndTheOldContentStays) {
   made(40);
   const ChildResult result = in_child([&] {
     const auto store = open(path(), Access::read_write);
-    ::signal(SIGXFSZ, SIG_IGN);  // the limit stands for the disk's end
+    ::signal(SIGXFSZ, SIG_IGN);  // the limit simulates a full disk
     const rlim_t limit = fs::file_size(main_file()) + 100'000;
     const rlimit limits{limit, limit};
     require(::setrlimit(RLIMIT_FSIZE, &limits) == 0, "setrlimit");
@@ -82,7 +82,7 @@ TEST_P(FaultsTest, ADiskThatIsFullIsACleanErrorAndTheOldContentStays) {
         require(false, "nothing was thrown");
       } catch (const Error& error) {
         require(error.code() == ErrorCode::io, error.what());
-        require(std::string(error.what()).find("this change was not kept; ") != std::string::npos, error.what());
+        require(std::string(error.what()).find("this change was not stored; ") != std::string::npos, error.what());
       }
       read_everything(*store, 40);
     }
@@ -104,8 +104,8 @@ TEST_P(FaultsTest, ADiskThatIsFullIsACleanErrorAndTheOldContentStays) {
   read_everything(*store, 45);
 }
 
-#ifndef SIGNWEAVE_SANITIZED  // sanitizers need terabytes themselves
-TEST_P(FaultsTest, ASmallAddressSpaceIsMadeDoWith) {
+#ifndef SIGNWEAVE_SANITIZED  // sanitizers themselves need terabytes
+TEST_P(FaultsTest, ASmallAddressSpaceSuffices) {
   made(3);
   const ChildResult result = in_child([&] {
     const rlim_t limit = rlim_t{4} << 30;
@@ -121,7 +121,7 @@ TEST_P(FaultsTest, ASmallAddressSpaceIsMadeDoWith) {
 }
 #endif
 
-TEST_P(FaultsTest, AFolderWithoutRightToWriteIsReadAndNotWritten) {
+TEST_P(FaultsTest, AReadOnlyFolderIsReadAndNotWritten) {
   made(3);
   const ChildResult read =
       without_right_to_write(path(), [&] { read_everything(*open(path(), Access::read_only), 3); });
@@ -144,7 +144,7 @@ TEST_P(FaultsTest, ACopyOfAClosedFolderIsABackup) {
   read_everything(*store, 7);
 }
 
-/// Ends without closing anything, as if killed.
+/// Ends the process without closing anything, as if killed.
 [[noreturn]] void write_and_die(const fs::path& path, int changes) {
   const auto store = open(path, Access::read_write);
   fill(*store, changes);
@@ -152,31 +152,31 @@ TEST_P(FaultsTest, ACopyOfAClosedFolderIsABackup) {
   ::_exit(1);
 }
 
-TEST_P(FaultsTest, AReaderSeesWhatAKilledWriterHadCommitted) {
+TEST_P(FaultsTest, AReaderSeesTheCommitsOfAKilledWriter) {
   made(2);
   EXPECT_FALSE(in_child([&] { write_and_die(path(), 6); }).finished);
   read_everything(*open(path(), Access::read_only), 6);
 }
 
-TEST_P(FaultsTest, AfterAKilledWriterAReaderWithoutRightToWriteIsToldWhatIsMissingOrReads) {
+TEST_P(FaultsTest, AfterAKilledWriterAReaderWithoutWritePermissionReadsOrGetsAClearError) {
   made(2);
   EXPECT_FALSE(in_child([&] { write_and_die(path(), 6); }).finished);
   const ChildResult read =
       without_right_to_write(path(), [&] { read_everything(*open(path(), Access::read_only), 6); });
   EXPECT_TRUE(read.finished);
-  EXPECT_THAT(read.text,
-              one_process() ? HasSubstr("the last writer did not close the store; open it once with the right to write")
-                            : HasSubstr(""));
+  EXPECT_THAT(read.text, one_process()
+                             ? HasSubstr("the last writer did not close the store; open it once with write permission")
+                             : HasSubstr(""));
   EXPECT_EQ(read.text.empty(), !one_process());
   read_everything(*open(path(), Access::read_write), 6);
 }
 
-TEST_P(FaultsTest, AParentGoesOnWhateverItsChildDoesWithWhatItInherited) {
+TEST_P(FaultsTest, AParentContinuesWhateverItsChildDoesWithInheritedStores) {
   made(2);
   auto store = open(path(), Access::read_write);
   const auto snapshot = store->read();
   in_child([&] {
-    store.reset();  // closes nothing of the parent's
+    store.reset();  // closes nothing that belongs to the parent
   });
   const ChildResult result = in_child([&] { ::exit(0); });  // static objects are destroyed
   fill(*store, 4);
@@ -195,7 +195,7 @@ TEST_P(FaultsTest, SeveralProcessesRead) {
   read_everything(*store, 3);
 }
 
-TEST_P(FaultsTest, AProcessThatWritesKeepsOthersOutWhereTheEngineServesOneOnly) {
+TEST_P(FaultsTest, AWriterExcludesOthersIfTheEngineServesOneProcess) {
   made(3);
   const auto store = open(path(), Access::read_write);
   for (const Access access : {Access::read_only, Access::read_write}) {
@@ -205,12 +205,12 @@ TEST_P(FaultsTest, AProcessThatWritesKeepsOthersOutWhereTheEngineServesOneOnly) 
     if (!one_process()) continue;
     EXPECT_EQ(result.code, ErrorCode::conflict);
     EXPECT_THAT(result.text, HasSubstr("another process has it open"));
-    EXPECT_THAT(result.text, HasSubstr("try again when that one has ended"));
+    EXPECT_THAT(result.text, HasSubstr("try again when it has finished"));
   }
   fill(*store, 4);
 }
 
-TEST_P(FaultsTest, AStoreOpenedForReadingIsWrittenOnceItIsOpenedForWritingToo) {
+TEST_P(FaultsTest, AStoreOpenedReadOnlyIsWritableOnceAlsoOpenedForWriting) {
   made(3);
   const auto reader = open(path(), Access::read_only);
   const auto before = reader->read();
@@ -221,8 +221,8 @@ TEST_P(FaultsTest, AStoreOpenedForReadingIsWrittenOnceItIsOpenedForWritingToo) {
   EXPECT_TRUE(before->get(bytes_of("2/0")));
 }
 
-TEST_P(FaultsTest, WhereAnotherProcessReadsAReaderStaysAReader) {
-  if (!one_process()) return;  // elsewhere nothing is in the way of a writer
+TEST_P(FaultsTest, AReaderCannotBecomeAWriterWhileAnotherProcessReads) {
+  if (!one_process()) return;  // other engines never block a writer
   made(3);
   const auto reader = open(path(), Access::read_only);
   int ends[2], done[2];

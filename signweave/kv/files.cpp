@@ -17,7 +17,7 @@ std::uint64_t bytes_in(const fs::path& folder) {
   std::error_code error;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
     const std::uintmax_t size = entry.is_regular_file(error) ? entry.file_size(error) : 0;
-    if (!error) sum += size;  // a log may just have gone
+    if (!error) sum += size;  // a log may just have been removed
   }
   return sum;
 }

@@ -3,16 +3,16 @@
 #include <cstdint>
 #include <filesystem>
 
-/// Inside this module only.
+/// Internal to this module.
 namespace signweave::kv {
 
-/// Bytes of the files in a folder, without those in folders inside it.
+/// The total size in bytes of the files in a folder, without subfolders.
 std::uint64_t bytes_in(const std::filesystem::path& folder);
 
 /// Flushes a file to the disk. Throws Error{io}.
 void sync_file(const std::filesystem::path& path);
 
-/// Makes the names in a folder survive a power cut, where the file system can.
+/// Makes the entries of a folder survive a power failure, if the file system supports that.
 void sync_folder(const std::filesystem::path& folder) noexcept;
 
 }  // namespace signweave::kv

@@ -13,7 +13,7 @@
 #include "signweave/kv/test_child.h"
 #include "signweave/kv/test_folder.h"
 
-/// What is the hash engines' own. A build without the engine has nothing to test here.
+/// Tests specific to the hash engines. A build without the engine has nothing to test here.
 namespace signweave::kv {
 namespace {
 
@@ -48,7 +48,7 @@ void flip(const fs::path& file, std::uint64_t bit) {
   stream.put(static_cast<char>(byte ^ (1 << bit % 8)));
 }
 
-TEST_P(BerkeleyTest, AFlippedBitIsAnErrorOrDoesNoHarm) {
+TEST_P(BerkeleyTest, AFlippedBitIsAnErrorOrHarmless) {
   fill(*open(path(), Access::read_write), 20);
   std::mt19937_64 random(5);
   int refused = 0;
@@ -69,7 +69,7 @@ TEST_P(BerkeleyTest, AFlippedBitIsAnErrorOrDoesNoHarm) {
   EXPECT_GT(refused, 20);
 }
 
-TEST_P(BerkeleyTest, ADamagedPageSparesTheOthers) {
+TEST_P(BerkeleyTest, ADamagedPageDoesNotAffectOthers) {
   fill(*open(path(), Access::read_write), 20);
   flip(path() / "data.bdb", (fs::file_size(path() / "data.bdb") - 5'000) * 8);
   for (const Access access : {Access::read_only, Access::read_write}) {
@@ -82,7 +82,7 @@ TEST_P(BerkeleyTest, ADamagedPageSparesTheOthers) {
         if (snapshot->get(bytes_of(std::to_string(i) + "/0"))) ++read;
       } catch (const Error& error) {
         EXPECT_EQ(error.code(), ErrorCode::corrupt);
-        EXPECT_THAT(error.what(), HasSubstr("the store is damaged (")) << "and what Berkeley DB says of it";
+        EXPECT_THAT(error.what(), HasSubstr("the store is damaged (")) << "with Berkeley DB's own message";
         EXPECT_THAT(error.what(), HasSubstr("restore it from a copy"));
         ++damaged;
       }
@@ -92,7 +92,7 @@ TEST_P(BerkeleyTest, ADamagedPageSparesTheOthers) {
   }
 }
 
-TEST_P(BerkeleyTest, AFileThatEndsWithinAPageIsMendedWhereTheWriterWasKilled) {
+TEST_P(BerkeleyTest, AFileThatEndsWithinAPageIsRepairedIfTheWriterWasKilled) {
   fill(*open(path(), Access::read_write), 5);
   const std::uint64_t sound = fs::file_size(path() / "data.bdb");
   in_child([&] {
@@ -100,20 +100,21 @@ TEST_P(BerkeleyTest, AFileThatEndsWithinAPageIsMendedWhereTheWriterWasKilled) {
     fill(*store, 8);
     ::_exit(1);
   });
-  fs::resize_file(path() / "data.bdb", fs::file_size(path() / "data.bdb") + 1'000);  // a write that met the disk's end
+  fs::resize_file(path() / "data.bdb",
+                  fs::file_size(path() / "data.bdb") + 1'000);  // a write that reached the end of the disk
   read_everything(*open(path(), Access::read_write), 8);
 
-  fs::resize_file(path() / "data.bdb", sound - 1'000);  // closed in order: then it was cut
+  fs::resize_file(path() / "data.bdb", sound - 1'000);  // closed in order, then truncated
   try {
     open(path(), Access::read_write);
     FAIL() << "nothing was thrown";
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ErrorCode::corrupt) << error.what();
-    EXPECT_EQ(fs::file_size(path() / "data.bdb"), sound - 1'000) << "and it is left as it is";
+    EXPECT_EQ(fs::file_size(path() / "data.bdb"), sound - 1'000) << "and it is left unchanged";
   }
 }
 
-TEST_P(BerkeleyTest, LogsThatAreGoneAreMissedOnlyWhereTheyAreNeeded) {
+TEST_P(BerkeleyTest, MissingLogsAreAnErrorOnlyIfNeeded) {
   const auto remove_logs = [&] {
     std::vector<fs::path> logs;
     for (const auto& entry : fs::directory_iterator(path())) {
@@ -162,7 +163,7 @@ TEST_P(BerkeleyTest, LogsStayBoundedAndOneIsLeftWhenClosed) {
   EXPECT_EQ(logs(), 1);
 }
 
-/// Changes everything that `fill` put, and dies while it does.
+/// Changes everything that `fill` put, and is killed meanwhile.
 void die_while_changing(const fs::path& path, int changes) {
   const auto store = open(path, Access::read_write);
   const auto change = store->write();
@@ -171,7 +172,7 @@ void die_while_changing(const fs::path& path, int changes) {
     for (int k = 0; k < 20; ++k) change->put(bytes_of(std::to_string(i) + '/' + std::to_string(k)), bytes_of("#"));
   }
   std::atomic<bool> done = false;
-  std::thread killer([&] {  // once the log holds some lines
+  std::thread killer([&] {  // once the log has some lines
     struct stat log {};
     while (!done && (::stat((path / "data.tch.wal").c_str(), &log) != 0 || log.st_size < 40'000)) {
     }
@@ -182,10 +183,10 @@ void die_while_changing(const fs::path& path, int changes) {
   killer.join();
 }
 
-TEST_P(TokyoTest, ALogTornInItsLastLineIsUndoneAllTheSame) {
+TEST_P(TokyoTest, ALogWithATornLastLineIsStillUndone) {
   std::uint64_t size = 0;
   std::uint64_t entries = 0;
-  for (int attempt = 0; attempt < 50 && size < 40'000; ++attempt) {  // the blow may come too late
+  for (int attempt = 0; attempt < 50 && size < 40'000; ++attempt) {  // the kill may come too late
     auto store = open(path(), Access::read_write);
     fill(*store, 20);
     entries = store->info().entries;
@@ -194,7 +195,7 @@ TEST_P(TokyoTest, ALogTornInItsLastLineIsUndoneAllTheSame) {
     size = fs::file_size(path() / "data.tch.wal");
   }
   ASSERT_GE(size, 40'000u);
-  // The head of a line of 65,792 bytes, whichever end comes first, and some of its bytes.
+  // The head of a line of 65,792 bytes in either byte order, and some of its bytes.
   std::ofstream(path() / "data.tch.wal", std::ios::app | std::ios::binary)
       << std::string(9, '\0') + "\1\1" + '\0' + std::string(100, 'x');
   const auto store = open(path(), Access::read_write);

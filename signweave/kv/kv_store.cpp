@@ -14,8 +14,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A new engine is one row here, the default first; the tests run over every row by themselves. An engine that this
-/// build lacks keeps its name and its file, so that we can say so.
+/// A new engine is one row here, the default first; the tests run over all rows automatically. An engine that this
+/// build lacks has a row with name and file, so that the error can name it.
 constexpr std::array kEngines = {
     Engine{.name = "lmdb", .file = "data.mdb", .create = lmdb_create, .open = lmdb_open, .compact = lmdb_compact},
 #if SIGNWEAVE_BERKELEY
@@ -80,7 +80,7 @@ void create(const fs::path& folder, std::string_view engine) {
     sync_folder(folder);
     sync_folder(fs::absolute(folder).parent_path());
   } catch (...) {
-    // The folder was empty, so whatever is in it now is half a store of ours.
+    // The folder was empty before, so its present content is an unfinished store.
     for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) fs::remove(entry.path(), error);
     if (made) fs::remove(folder, error);
     throw;

@@ -30,7 +30,7 @@ void put(KvStore& store, std::string_view key, std::string_view value) {
   change->commit();
 }
 
-/// Every rule of kv_store.h, for every engine of this build.
+/// Tests every rule of kv_store.h for every engine of this build.
 class KvStoreTest : public testing::TestWithParam<std::string> {
  protected:
   KvStoreTest() {
@@ -45,7 +45,7 @@ class KvStoreTest : public testing::TestWithParam<std::string> {
 
 INSTANTIATE_TEST_SUITE_P(Engines, KvStoreTest, testing::ValuesIn(engines()), [](const auto& row) { return row.param; });
 
-TEST_P(KvStoreTest, WhatWasCommittedIsThereAfterReopening) {
+TEST_P(KvStoreTest, CommittedChangesSurviveReopening) {
   put(*store_, "VANNES", "a city");
   store_.reset();
   store_ = open(path(), Access::read_only);
@@ -60,7 +60,7 @@ TEST_P(KvStoreTest, ASecondPutReplacesTheValue) {
   EXPECT_EQ(store_->info().entries, 1u);
 }
 
-TEST_P(KvStoreTest, ValuesOfEverySizeComeBackWhole) {
+TEST_P(KvStoreTest, ValuesOfEverySizeRoundTrip) {
   const std::size_t sizes[] = {0, 1, 100, 2'000, 4'079, 4'080, 4'081, 4'096, 8'176, 65'536, 3'000'000};
   const auto change = store_->write();
   for (const std::size_t size : sizes) {
@@ -73,7 +73,7 @@ TEST_P(KvStoreTest, ValuesOfEverySizeComeBackWhole) {
   }
 }
 
-TEST_P(KvStoreTest, EraseSaysWhetherTheKeyWasThere) {
+TEST_P(KvStoreTest, EraseReportsWhetherTheKeyExisted) {
   put(*store_, "k", "v");
   const auto change = store_->write();
   EXPECT_TRUE(change->erase(bytes_of("k")));
@@ -101,7 +101,7 @@ TEST_P(KvStoreTest, ASnapshotKeepsTheOldValueWhileAWriterCommits) {
   const std::optional<ByteSpan> lent = snapshot->get(bytes_of("k"));
   for (int i = 0; i < 20; ++i) put(*store_, "k", std::string(50'000, static_cast<char>('a' + i)));
   EXPECT_THAT(text_at(*snapshot, "k"), Optional(old_value));
-  EXPECT_EQ(text_of(*lent), old_value) << "and the bytes lent before stay";
+  EXPECT_EQ(text_of(*lent), old_value) << "and bytes lent earlier stay valid";
   EXPECT_THAT(text_at(*store_->read(), "k"), Optional(std::string(50'000, 't')));
 }
 
@@ -123,7 +123,7 @@ TEST_P(KvStoreTest, BytesLentByAWriteTransactionSurviveItsOwnPuts) {
   EXPECT_EQ(text_of(*large), std::string(9'000, 'l'));
 }
 
-TEST_P(KvStoreTest, ValuesReadIntoABufferAreThoseThatAreLent) {
+TEST_P(KvStoreTest, ValuesReadIntoABufferEqualThoseLent) {
   for (int i = 0; i < 20; ++i) put(*store_, std::to_string(i), std::string(static_cast<std::size_t>(i) * 700, 'a'));
   const auto snapshot = store_->read();
   const auto change = store_->write();
@@ -241,7 +241,7 @@ TEST_P(KvStoreTest, ASecondWriterWaitsForTheFirst) {
   EXPECT_THAT(text_at(*store_->read(), "count"), Optional(std::string("100")));
 }
 
-TEST_P(KvStoreTest, OneThreadThatWritesTwiceIsToldSoInsteadOfHanging) {
+TEST_P(KvStoreTest, ANestedWriteOfOneThreadIsAnErrorNotADeadlock) {
   const auto change = store_->write();
   EXPECT_EQ(refusal_of([&] { store_->write(); }), ErrorCode::conflict);
 }
@@ -253,9 +253,9 @@ TEST_P(KvStoreTest, AnotherThreadMayWriteAfterAnError) {
   EXPECT_THAT(text_at(*store_->read(), "k"), Optional(std::string("w")));
 }
 
-TEST_P(KvStoreTest, SpaceOfReplacedValuesIsUsedAgain) {
+TEST_P(KvStoreTest, SpaceOfReplacedValuesIsReused) {
   for (int i = 0; i < 5; ++i) put(*store_, "k", std::string(1'000'000, 'x'));
-  const auto size_once_closed = [&] {  // an engine may keep logs while it is open
+  const auto size_once_closed = [&] {  // an engine may have logs while it is open
     store_.reset();
     store_ = open(path(), Access::read_write);
     return store_->info().bytes_on_disk;
@@ -282,7 +282,7 @@ TEST_P(KvStoreTest, ManyBoundedTransactionsAddUp) {
   for (int i = 0; i < kCommits * kPuts; i += 97) EXPECT_EQ(text_at(*snapshot, std::to_string(i)), std::to_string(i));
 }
 
-TEST_P(KvStoreTest, KeysHaveALongestLength) {
+TEST_P(KvStoreTest, KeysHaveAMaximumLength) {
   const std::string longest(store_->longest_key(), 'k');
   put(*store_, longest, "v");
   EXPECT_THAT(text_at(*store_->read(), longest), Optional(std::string("v")));
@@ -296,7 +296,7 @@ TEST_P(KvStoreTest, AReadOnlyStoreRefusesToWrite) {
   EXPECT_EQ(refusal_of([&] { open(path(), Access::read_only)->write(); }), ErrorCode::unsupported);
 }
 
-TEST_P(KvStoreTest, InfoTellsEngineEntriesAndSize) {
+TEST_P(KvStoreTest, InfoReportsEngineEntriesAndSize) {
   put(*store_, "k", std::string(100'000, 'x'));
   const EngineInfo info = store_->info();
   EXPECT_EQ(info.name, GetParam());
@@ -305,7 +305,7 @@ TEST_P(KvStoreTest, InfoTellsEngineEntriesAndSize) {
   EXPECT_GE(info.bytes_on_disk, 100'000u);
 }
 
-TEST_P(KvStoreTest, AFolderThatIsNotEmptyIsLeftAlone) {
+TEST_P(KvStoreTest, ANonEmptyFolderIsLeftUnchanged) {
   EXPECT_EQ(refusal_of([&] { create(path(), GetParam()); }), ErrorCode::already_exists);
   const auto other = folder_.path() / "notes";
   std::filesystem::create_directory(other);
@@ -314,7 +314,7 @@ TEST_P(KvStoreTest, AFolderThatIsNotEmptyIsLeftAlone) {
   EXPECT_TRUE(std::filesystem::exists(other / "letter.txt"));
 }
 
-TEST_P(KvStoreTest, AnEmptyFolderAndFoldersNotYetThereBecomeStores) {
+TEST_P(KvStoreTest, EmptyAndMissingFoldersBecomeStores) {
   const auto empty = folder_.path() / "empty";
   std::filesystem::create_directory(empty);
   create(empty, GetParam());
@@ -323,7 +323,7 @@ TEST_P(KvStoreTest, AnEmptyFolderAndFoldersNotYetThereBecomeStores) {
   EXPECT_EQ(open(folder_.path() / "a" / "b", Access::read_only)->info().entries, 0u);
 }
 
-TEST(KvStore, ThereIsAnEngineAndAnUnknownOneIsNamedWithTheKnown) {
+TEST(KvStore, AnUnknownEngineIsReportedWithTheKnownOnes) {
   ASSERT_FALSE(engines().empty());
   TestFolder folder;
   std::string text;
@@ -333,11 +333,11 @@ TEST(KvStore, ThereIsAnEngineAndAnUnknownOneIsNamedWithTheKnown) {
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "db"));
 }
 
-TEST(KvStore, AnEngineThatTheBuildLacksIsNamedAsSuch) {
+TEST(KvStore, AnEngineThatTheBuildLacksIsReported) {
   const std::pair<const char*, const char*> rows[] = {
       {"lmdb", "data.mdb"}, {"berkeley", "data.bdb"}, {"tokyo", "data.tch"}};
   for (const auto& [name, file] : rows) {
-    const auto& engine = name;  // a lambda takes no structured binding
+    const auto& engine = name;  // a lambda cannot capture a structured binding
     TestFolder folder;
     std::ofstream(folder / file) << "a store of that engine";
     std::string text;
@@ -353,7 +353,7 @@ TEST(KvStore, AnEngineThatTheBuildLacksIsNamedAsSuch) {
   }
 }
 
-TEST(KvStore, AFolderWithoutStoreSaysHowToMakeOne) {
+TEST(KvStore, AFolderWithoutStoreSaysHowToCreateOne) {
   TestFolder folder;
   for (const auto& path : {folder.path(), folder.path() / "nowhere"}) {
     std::string text;
@@ -362,7 +362,7 @@ TEST(KvStore, AFolderWithoutStoreSaysHowToMakeOne) {
   }
 }
 
-TEST(KvStore, AFileInTheWayIsAnErrorThatNamesIt) {
+TEST(KvStore, AFileInsteadOfAFolderIsAnErrorThatNamesIt) {
   TestFolder folder;
   std::ofstream(folder.path() / "file") << "x";
   std::string text;

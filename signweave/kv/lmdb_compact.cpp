@@ -19,39 +19,39 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t kMap = std::size_t{1} << 40;
 
-/// The lock that LMDB takes on lock.mdb while it opens an environment that nobody else has open. As long as we hold it,
-/// others wait in their opening. (It belongs to the process: LMDB's own may take it over.)
-class AloneLock {
+/// The lock that LMDB takes on lock.mdb while it opens an environment that no other process has open. While we hold it,
+/// other processes wait in opening. (It belongs to the process: LMDB's own lock may replace it.)
+class ExclusiveLock {
  public:
-  explicit AloneLock(const fs::path& folder)
+  explicit ExclusiveLock(const fs::path& folder)
       : file_(::open((folder / "lock.mdb").c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0664)) {
     if (file_ < 0) fail_system(folder, "compacting the store", errno);
-    struct flock wanted {};
-    wanted.l_type = F_WRLCK;
-    wanted.l_whence = SEEK_SET;
-    wanted.l_len = 1;
-    if (::fcntl(file_, F_SETLK, &wanted) == 0) return;
+    struct flock request {};
+    request.l_type = F_WRLCK;
+    request.l_whence = SEEK_SET;
+    request.l_len = 1;
+    if (::fcntl(file_, F_SETLK, &request) == 0) return;
     const int error = errno;
     ::close(file_);
     if (error != EAGAIN && error != EACCES) fail_system(folder, "compacting the store", error);
     fail(folder, "compacting the store",
-         {ErrorCode::conflict, "another process has it open; try again when nobody reads or writes it"});
+         {ErrorCode::conflict, "another process has it open; try again when no process uses it"});
   }
-  ~AloneLock() { ::close(file_); }
-  AloneLock(const AloneLock&) = delete;
-  AloneLock& operator=(const AloneLock&) = delete;
+  ~ExclusiveLock() { ::close(file_); }
+  ExclusiveLock(const ExclusiveLock&) = delete;
+  ExclusiveLock& operator=(const ExclusiveLock&) = delete;
 
-  /// From now on nobody can use what the lock file says of the old file: who waited for it is refused.
+  /// Invalidates the lock file's content, which describes the old file: opening fails in processes that waited.
   void forget() const noexcept { static_cast<void>(::ftruncate(file_, 0)); }
 
  private:
   int file_ = -1;
 };
 
-/// An environment by itself, without locks.
-class Alone {
+/// A private environment without locks.
+class PrivateEnvironment {
  public:
-  explicit Alone(const fs::path& folder) : folder_(folder) {
+  explicit PrivateEnvironment(const fs::path& folder) : folder_(folder) {
     need(::mdb_env_create(&env_));
     int code = ::mdb_env_set_mapsize(env_, kMap);
     if (code == MDB_SUCCESS) code = ::mdb_env_open(env_, folder.c_str(), MDB_RDONLY | MDB_NOLOCK | MDB_NOTLS, 0664);
@@ -62,9 +62,9 @@ class Alone {
     close();
     fail_lmdb(folder_, "compacting the store", code);
   }
-  ~Alone() { close(); }
-  Alone(const Alone&) = delete;
-  Alone& operator=(const Alone&) = delete;
+  ~PrivateEnvironment() { close(); }
+  PrivateEnvironment(const PrivateEnvironment&) = delete;
+  PrivateEnvironment& operator=(const PrivateEnvironment&) = delete;
 
   MDB_env* get() const noexcept { return env_; }
   std::uint64_t entries() const {
@@ -72,7 +72,7 @@ class Alone {
     need(::mdb_stat(transaction_, database_, &tree));
     return tree.ms_entries;
   }
-  /// The next entry; false after the last.
+  /// Moves to the next entry; false after the last one.
   bool next(MDB_val& key, MDB_val& value) const {
     const int code = ::mdb_cursor_get(cursor_, &key, &value, MDB_NEXT);
     if (code != MDB_NOTFOUND) need(code);
@@ -100,8 +100,8 @@ bool same(const MDB_val& a, const MDB_val& b) {
   return a.mv_size == b.mv_size && std::memcmp(a.mv_data, b.mv_data, a.mv_size) == 0;
 }
 
-/// Throws unless both hold the same entries, to the bit.
-void compare(const Alone& one, const Alone& other, const fs::path& folder,
+/// Throws unless both contain the same entries, to the bit.
+void compare(const PrivateEnvironment& one, const PrivateEnvironment& other, const fs::path& folder,
              const std::function<void(double fraction)>& progress) {
   const double all = static_cast<double>(one.entries());
   constexpr std::uint64_t kEvery = 1024;
@@ -111,7 +111,7 @@ void compare(const Alone& one, const Alone& other, const fs::path& folder,
     if (more != other.next(other_key, other_value) || (more && (!same(key, other_key) || !same(value, other_value)))) {
       fail(folder, "compacting the store",
            {ErrorCode::io,
-            "the new file does not read back as it was written; it is left as it was, check memory and disk"});
+            "the new file does not read back as it was written; the old one is unchanged, check memory and disk"});
     }
     if (!more) return;
     if (progress && done % kEvery == 0) progress(0.5 + 0.5 * static_cast<double>(done) / all);
@@ -120,20 +120,21 @@ void compare(const Alone& one, const Alone& other, const fs::path& folder,
 
 void compact_alone(const fs::path& folder, const fs::path& compacting,
                    const std::function<void(double fraction)>& progress) {
-  const AloneLock lock(folder);
+  const ExclusiveLock lock(folder);
   {
-    const Alone old(folder);
+    const PrivateEnvironment old(folder);
     if (progress) progress(0);
     old.need(::mdb_env_copy2(old.get(), compacting.c_str(), MDB_CP_COMPACT));
     sync_file(compacting / "data.mdb");
     if (progress) progress(0.5);
-    compare(old, Alone(compacting), folder, progress);
+    compare(old, PrivateEnvironment(compacting), folder, progress);
   }
-  // Who waits for the lock would take its transaction numbers, which begin anew in the new file, for those of this one.
+  // A process waiting for the lock would confuse its transaction numbers, which restart in the new file, with those of
+  // this one.
   lock.forget();
   std::error_code error;
   fs::rename(compacting / "data.mdb", folder / "data.mdb", error);
-  // LMDB writes the lock file anew, with the numbers of the file that is there now, before others are let in.
+  // LMDB rewrites the lock file with the numbers of the new file before other processes continue.
   MDB_env* env = nullptr;
   int code = ::mdb_env_create(&env);
   if (code == MDB_SUCCESS) {
@@ -149,7 +150,7 @@ void compact_alone(const fs::path& folder, const fs::path& compacting,
 
 void lmdb_compact(const fs::path& folder, const fs::path& compacting,
                   const std::function<void(double fraction)>& progress) {
-  LmdbEnvironment::acquire(folder, Access::read_only);  // throws where the file is cut short or no store at all
+  LmdbEnvironment::acquire(folder, Access::read_only);  // throws if the file is truncated or not a store
   const bool done = OpenStores<LmdbEnvironment>::while_closed(folder / "data.mdb",
                                                               [&] { compact_alone(folder, compacting, progress); });
   if (!done) {

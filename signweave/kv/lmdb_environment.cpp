@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The map is only address space: the file grows as it is written. Halved where the system refuses (ulimit -v).
+// The map is only address space: the file grows as it is written. Halved if the system refuses (ulimit -v).
 constexpr std::size_t kLargestMap = std::size_t{1} << 40;
 constexpr std::size_t kSmallestMap = std::size_t{1} << 28;
 constexpr unsigned kMostReaders = 1024;
@@ -34,15 +34,15 @@ std::shared_ptr<LmdbEnvironment> LmdbEnvironment::acquire(const fs::path& folder
   auto environment = OpenStores<LmdbEnvironment>::acquire(
       folder / "data.mdb", [&] { return std::unique_ptr<LmdbEnvironment>(new LmdbEnvironment(folder, access)); });
   if (access == Access::read_write && !environment->writable()) {
-    fail_lmdb(folder, "opening for writing a store that this process has open for reading only", EACCES);
+    fail_lmdb(folder, "opening for writing a store that this process has open read-only", EACCES);
   }
   return environment;
 }
 
 LmdbEnvironment::LmdbEnvironment(fs::path folder, Access access) : folder_(std::move(folder)), process_(::getpid()) {
   check_lmdb_header(folder_);
-  // Readers too take the lock file where they can: it keeps writers from reusing pages that a reader still sees. Only a
-  // folder that we may not write to is read without it, and there nobody of our rights writes.
+  // Readers also use the lock file if they can: it prevents writers from reusing pages that a reader still sees. Only a
+  // folder without write permission is read without it, and there no process with our permissions writes.
   int code = try_open(MDB_NOTLS);
   writable_ = code == MDB_SUCCESS;
   if (access == Access::read_only) {
@@ -51,11 +51,11 @@ LmdbEnvironment::LmdbEnvironment(fs::path folder, Access access) : folder_(std::
   }
   if (code != MDB_SUCCESS) fail("opening the store", code);
   try {
-    ::mdb_reader_check(env_, nullptr);  // readers that were killed would keep old pages alive for ever
+    ::mdb_reader_check(env_, nullptr);  // killed readers would otherwise hold old pages permanently
     check_length();
     MDB_txn* transaction = begin_read();
     code = ::mdb_dbi_open(transaction, nullptr, 0, &database_);
-    ::mdb_txn_commit(transaction);  // commit, not abort: it keeps the handle
+    ::mdb_txn_commit(transaction);  // commit, not abort, so that the handle stays valid
     if (code != MDB_SUCCESS) fail("opening the store", code);
   } catch (...) {
     ::mdb_env_close(env_);
@@ -64,7 +64,7 @@ LmdbEnvironment::LmdbEnvironment(fs::path folder, Access access) : folder_(std::
 }
 
 LmdbEnvironment::~LmdbEnvironment() {
-  // After a fork the environment belongs to the parent; closing it here would drop the parent's locks.
+  // After a fork the environment belongs to the parent; closing it here would release the parent's locks.
   if (process_ == ::getpid()) ::mdb_env_close(env_);
 }
 
@@ -82,11 +82,11 @@ int LmdbEnvironment::try_open(unsigned flags) {
   }
 }
 
-// LMDB reads through a map, and a page that the file no longer has raises SIGBUS. A file that reaches its last page has
-// them all. One that does not may still be sound, because LMDB does not write pages that a transaction took and gave
-// back; then the trees are walked.
+// LMDB reads through a map, and a page beyond the end of the file raises SIGBUS. A file that reaches its last page has
+// all pages. A shorter one may still be valid, because LMDB does not write pages that a transaction allocated and freed
+// again; then the trees are walked.
 void LmdbEnvironment::check_length() {
-  MDB_txn* snapshot = begin_read();  // first of all: pages of this snapshot stay, and were written before it
+  MDB_txn* snapshot = begin_read();  // first, because pages of this snapshot stay and were written before it
   MDB_envinfo info{};
   ::mdb_env_info(env_, &info);
   int file = -1;

@@ -15,8 +15,8 @@ struct LmdbMeaning {
 
 constexpr LmdbMeaning kLmdbMeanings[] = {
     {MDB_MAP_FULL, ErrorCode::io,
-     "the store has reached its largest size; raise the limit on virtual memory (ulimit -v)"},
-    {MDB_READERS_FULL, ErrorCode::conflict, "more than 1024 readers at once; let some end and try again"},
+     "the store has reached its maximum size; raise the limit on virtual memory (ulimit -v)"},
+    {MDB_READERS_FULL, ErrorCode::conflict, "more than 1024 readers at once; wait until some have finished"},
     {MDB_MAP_RESIZED, ErrorCode::conflict,
      "another process has made the store larger than is mapped here; open it again"},
     {MDB_CORRUPTED, ErrorCode::corrupt, "the store is damaged; restore it from a copy"},
@@ -25,7 +25,7 @@ constexpr LmdbMeaning kLmdbMeanings[] = {
     {MDB_VERSION_MISMATCH, ErrorCode::unsupported,
      "the store was made by another version of LMDB; open it with that one"},
     {MDB_PANIC, ErrorCode::io, "an earlier write failed half way; open the store again"},
-    {MDB_BAD_TXN, ErrorCode::io, "an earlier step of this change failed; begin it again"},
+    {MDB_BAD_TXN, ErrorCode::io, "an earlier step of this change failed; start it again"},
 };
 
 }  // namespace

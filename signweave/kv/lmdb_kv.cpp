@@ -49,8 +49,8 @@ class LmdbRead final : public ReadTransaction {
     ::mdb_txn_abort(transaction_);
   }
 
-  // By one cursor: where the key lies on the page of the last one, as a motion's next packet often does, LMDB need not
-  // go down the tree again.
+  // Uses one cursor: if the key is on the same page as the last one, as for a motion's next packet, LMDB does not
+  // search the tree again.
   std::optional<ByteSpan> get(ByteSpan key) const override {
     if (over_) environment_->fail("reading", MDB_PAGE_NOTFOUND);
     int code = cursor_ ? MDB_SUCCESS : ::mdb_cursor_open(transaction_, environment_->database(), &cursor_);
@@ -80,8 +80,8 @@ class LmdbRead final : public ReadTransaction {
   }
 
  private:
-  /// After a damaged page LMDB refuses everything else in the same transaction, sound or not. One begun anew reads on,
-  /// and it is the same snapshot unless somebody has written since.
+  /// After a damaged page LMDB refuses everything else in the same transaction. A new transaction continues to read,
+  /// and it is the same snapshot unless there was a write in between.
   void begin_again() const noexcept {
     const std::size_t snapshot = ::mdb_txn_id(transaction_);
     ::mdb_cursor_close(std::exchange(cursor_, nullptr));
@@ -92,7 +92,7 @@ class LmdbRead final : public ReadTransaction {
   Environment environment_;
   MDB_txn* transaction_;
   mutable MDB_cursor* cursor_ = nullptr;
-  mutable bool over_ = false;  ///< after a fault the snapshot could not be kept
+  mutable bool over_ = false;  ///< the snapshot was lost after an error
 };
 
 class LmdbWrite final : public WriteTransaction {
@@ -108,7 +108,7 @@ class LmdbWrite final : public WriteTransaction {
   std::optional<ByteSpan> get(ByteSpan key) const override {
     const std::optional<ByteSpan> value = get_value(*environment_, transaction_, key);
     if (!value) return std::nullopt;
-    // LMDB's own view lasts until the next put; what we lend lasts until the end of the transaction.
+    // LMDB's own view lasts until the next put; lent bytes must last until the transaction ends.
     return ByteSpan(lent_.emplace_back(value->begin(), value->end()));
   }
 
@@ -143,7 +143,7 @@ class LmdbWrite final : public WriteTransaction {
 
   void commit() override {
     assert(transaction_ && "the transaction is over");
-    const int code = ::mdb_txn_commit(transaction_);  // whatever it returns, the transaction is gone
+    const int code = ::mdb_txn_commit(transaction_);  // the transaction ends, whatever it returns
     transaction_ = nullptr;
     environment_->end_write();
     if (code != MDB_SUCCESS) environment_->fail("committing", code);
@@ -164,7 +164,7 @@ class LmdbStore final : public KvStore {
   std::unique_ptr<WriteTransaction> write() override {
     if (access_ == Access::read_only) {
       throw Error(ErrorCode::unsupported,
-                  environment_->folder().string() + ": the store was opened for reading only; open it for writing");
+                  environment_->folder().string() + ": the store was opened read-only; open it for writing");
     }
     return std::make_unique<LmdbWrite>(environment_);
   }
@@ -197,7 +197,7 @@ class LmdbStore final : public KvStore {
   }
 
  private:
-  /// What the pages take that hold entries, and the two at the head of the file.
+  /// The bytes of the pages that hold entries, and of the two at the head of the file.
   std::uint64_t bytes_used() const {
     MDB_stat tree{};
     const int code = ::mdb_env_stat(environment_->get(), &tree);

@@ -6,12 +6,11 @@
 
 #include "signweave/kv/lmdb_environment.h"
 
-// What we must know of LMDB's file (data version 1, 64 bits):
-//   page    u64 number, u16 pad, u16 flags, u16 lower, u16 upper (or u32 pages of an overflow run), u16 offsets of
-//   nodes node    u16 low, u16 high, u16 flags, u16 key size, key, then in a leaf the value or the number of its
-//   overflow page meta    behind a page header: u32 magic, u32 version, u64, u64 map size, two trees (free list, main)
-//   of 48 bytes
-//           with the root last (the first tree's first u32 is the page size), u64 last page, u64 transaction
+// The relevant layout of LMDB's file (data version 1, 64 bits):
+//   page  u64 number, u16 pad, u16 flags, u16 lower, u16 upper (in an overflow run: u32 pages), u16 offsets of nodes
+//   node  u16 low, u16 high, u16 flags, u16 key size, key; in a leaf then the value or the number of its overflow page
+//   meta  after a page header: u32 magic, u32 version, u64, u64 map size, two trees of 48 bytes (free list, main) with
+//         the root last (the first tree's first u32 is the page size), u64 last page, u64 transaction
 
 namespace signweave::kv {
 
@@ -46,7 +45,7 @@ std::optional<Bytes> read_at(int file, std::uint64_t at, std::size_t size) {
 struct Walk {
   int file;
   std::size_t page_size;
-  std::uint64_t pages;  ///< whole pages in the file
+  std::uint64_t pages;  ///< complete pages in the file
 
   bool run_inside(std::uint64_t first, std::uint64_t count) const { return first < pages && count <= pages - first; }
 

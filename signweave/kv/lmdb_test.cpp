@@ -7,27 +7,27 @@
 #include "signweave/kv/test_child.h"
 #include "signweave/kv/test_folder.h"
 
-/// What is LMDB's own: its file, its locks, its limits.
+/// Tests specific to LMDB: its file, its locks, its limits.
 namespace signweave::kv {
 namespace {
 
 namespace fs = std::filesystem;
 using testing::HasSubstr;
 
-TEST(Lmdb, AFileThatLmdbItselfLeftShortIsOpened) {
+TEST(Lmdb, AFileThatLmdbItselfLeftShortCanBeOpened) {
   TestFolder folder;
   const fs::path path = folder.path() / "db";
   create(path, "lmdb");
   {
     const auto store = open(path, Access::read_write);
     fill(*store, 10);
-    for (int i = 0; i < 3; ++i) {  // pages to use again make LMDB read its free list,
+    for (int i = 0; i < 3; ++i) {  // reusable pages make LMDB read its free list,
       const auto change = store->write();
       for (int k = 0; k < 20; ++k) change->erase(bytes_of("9/" + std::to_string(k)));
       change->put(bytes_of("note"), bytes_of("x"));
       change->commit();
     }
-    const auto change = store->write();  // and then it drops at once what was put and erased in one change
+    const auto change = store->write();  // and then it immediately frees what was put and erased in one change
     change->put(bytes_of("note"), bytes_of("y"));
     change->put(bytes_of("large"), bytes_of(std::string(3'000'000, 'x')));
     change->erase(bytes_of("large"));
@@ -39,7 +39,7 @@ TEST(Lmdb, AFileThatLmdbItselfLeftShortIsOpened) {
   MDB_envinfo info{};
   ::mdb_env_info(env, &info);
   ::mdb_env_close(env);
-  ASSERT_LT(fs::file_size(path / "data.mdb"), (info.me_last_pgno + 1) * 4096) << "the case that this test is about";
+  ASSERT_LT(fs::file_size(path / "data.mdb"), (info.me_last_pgno + 1) * 4096) << "the case under test";
 
   const auto store = open(path, Access::read_write);
   read_everything(*store, 9);
@@ -47,7 +47,7 @@ TEST(Lmdb, AFileThatLmdbItselfLeftShortIsOpened) {
   read_everything(*store, 12);
 }
 
-TEST(Lmdb, AFolderWithoutRightToWriteIsReadWithoutItsLockFileToo) {
+TEST(Lmdb, AReadOnlyFolderIsReadableWithoutItsLockFile) {
   TestFolder folder;
   const fs::path path = folder.path() / "db";
   create(path, "lmdb");
@@ -58,7 +58,7 @@ TEST(Lmdb, AFolderWithoutRightToWriteIsReadWithoutItsLockFileToo) {
   EXPECT_EQ(read.text, "");
 }
 
-TEST(Lmdb, AChildProcessOpensItsOwnAndTheParentGoesOn) {
+TEST(Lmdb, AChildProcessOpensItsOwnEnvironmentAndTheParentContinues) {
   TestFolder folder;
   const fs::path path = folder.path() / "db";
   create(path, "lmdb");
@@ -78,14 +78,14 @@ TEST(Lmdb, AChildProcessOpensItsOwnAndTheParentGoesOn) {
   read_everything(*store, 6);
 }
 
-TEST(Lmdb, OpeningAndClosingAgainKeepsOtherProcessesFromASnapshotsPages) {
+TEST(Lmdb, ReopeningPreventsOtherProcessesFromReusingASnapshotsPages) {
   TestFolder folder;
   const fs::path path = folder.path() / "db";
   create(path, "lmdb");
   const auto store = open(path, Access::read_write);
   fill(*store, 5);
   const auto snapshot = store->read();
-  open(path, Access::read_only).reset();  // a second environment would now drop the process's lock
+  open(path, Access::read_only).reset();  // a second environment would drop the process's lock now
   const ChildResult result = in_child([&] {
     const auto own = open(path, Access::read_write);
     for (int round = 0; round < 20; ++round) {
@@ -103,7 +103,7 @@ TEST(Lmdb, OpeningAndClosingAgainKeepsOtherProcessesFromASnapshotsPages) {
   }
 }
 
-TEST(Lmdb, TooManyReadersAreToldSoAndThoseOfTheDeadAreForgotten) {
+TEST(Lmdb, TooManyReadersAreAnErrorAndThoseOfDeadProcessesAreDropped) {
   TestFolder folder;
   const fs::path path = folder.path() / "db";
   create(path, "lmdb");
@@ -118,7 +118,7 @@ TEST(Lmdb, TooManyReadersAreToldSoAndThoseOfTheDeadAreForgotten) {
   }
   EXPECT_EQ(readers.size(), 1024u);
   readers.clear();
-  in_child([&] {  // dies holding every place
+  in_child([&] {  // ends while holding every reader slot
     const auto own = open(path, Access::read_only);
     std::vector<std::unique_ptr<ReadTransaction>> held;
     for (int i = 0; i < 1'024; ++i) held.push_back(own->read());

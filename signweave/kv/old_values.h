@@ -9,20 +9,22 @@
 
 #include "signweave/core/bytes.h"
 
-/// Inside this module only.
+/// Internal to this module.
 namespace signweave::kv {
 
-/// What changes replaced or took away, for as long as a snapshot needs it. Changes are numbered upwards; the snapshot s
-/// sees what changes up to and with s left. Not locked: the owner does that.
+/// Values that changes replaced or erased, stored as long as a snapshot needs them. Changes are numbered upwards;
+/// snapshot s sees the state after change s. Not thread-safe: the owner locks.
 class OldValues {
  public:
-  /// Until change `number`, the key had this value, or none. Numbers never fall; a key once a number.
+  /// Records the value, if any, that the key had until change `number`. Numbers never decrease; a key is recorded once
+  /// per number.
   void keep(std::uint64_t number, ByteSpan key, std::optional<ByteSpan> value);
 
-  /// What the key had for a snapshot; null where the store itself tells.
+  /// The value that a snapshot sees for the key; null if the store itself has the answer.
   const std::optional<Bytes>* find(ByteSpan key, std::uint64_t snapshot) const;
 
-  /// Lets go of what no snapshot from `oldest` on needs. Returned, so that the memory can be freed out of the lock.
+  /// Removes the values that no snapshot from `oldest` on needs. They are returned, so that the caller can free the
+  /// memory outside its lock.
   std::vector<std::optional<Bytes>> forget(std::uint64_t oldest);
 
   bool empty() const noexcept { return order_.empty(); }
@@ -38,7 +40,7 @@ class OldValues {
   };
   struct Kept {
     std::uint64_t number = 0;
-    const std::string* key = nullptr;  ///< the map's own
+    const std::string* key = nullptr;  ///< points to the map's key
   };
 
   std::unordered_map<std::string, std::deque<Old>, Hash, std::equal_to<>> values_;  ///< each oldest first

@@ -12,18 +12,18 @@
 
 #include "signweave/kv/fault.h"
 
-/// Inside this module only.
+/// Internal to this module.
 namespace signweave::kv {
 
-/// The stores of one kind that this process has open. Engines forbid, or punish, opening one store twice in a process
-/// (the second close would drop the locks of the first), so all who open it share one, and it closes when the last lets
-/// go. Counted by hand under one mutex, because a weak_ptr expires before the store is closed, and in between another
-/// thread would open it a second time.
+/// The stores of one kind that this process has open. Engines forbid opening one store twice in a process, or fail (the
+/// second close would drop the locks of the first), so all users share one, which closes when the last one releases it.
+/// Counted by hand under one mutex, because a weak_ptr expires before the store is closed, and another thread could
+/// open it again in between.
 template <typename Store>
 class OpenStores {
  public:
-  /// The store whose main file is `file`: the one that is open, or what `open` (a unique_ptr<Store>()) gives. A child
-  /// process opens its own, never its parent's.
+  /// The store whose main file is `file`: the one already open, or the result of `open` (a unique_ptr<Store>()). A
+  /// child process opens its own store and never uses its parent's.
   template <typename Open>
   static std::shared_ptr<Store> acquire(const std::filesystem::path& file, Open open) {
     const std::lock_guard lock(instance().mutex_);
@@ -42,8 +42,8 @@ class OpenStores {
     return {entry->store.get(), release};
   }
 
-  /// Runs what may run only while this process does not have the store open, and keeps it from being opened meanwhile
-  /// (so that all stores of this kind wait); false where it is open.
+  /// Runs `act` if this process does not have the store open, and prevents it from being opened meanwhile (all stores
+  /// of this kind wait). Returns false if it is open.
   template <typename Act>
   static bool while_closed(const std::filesystem::path& file, Act act) {
     const std::lock_guard lock(instance().mutex_);

@@ -6,10 +6,10 @@
 
 namespace signweave::kv {
 
-/// A record with its checksum in front: u64 XXH3 of what follows.
+/// Returns a record: the checksum (u64 XXH3) of the content, followed by the content.
 Bytes sealed(ByteSpan content);
 
-/// The content of a sealed record. Throws Error{corrupt} naming `where` where the checksum does not fit.
+/// Returns the content of a sealed record. Throws Error{corrupt} naming `where` if the checksum does not match.
 ByteSpan unsealed(ByteSpan record, const std::string& where);
 
 }  // namespace signweave::kv

@@ -11,7 +11,7 @@ namespace signweave::kv {
 
 namespace {
 
-// One length, so that a full disk cannot stop us from saying it.
+// Equal lengths, so that a full disk cannot prevent the change.
 constexpr std::string_view kOpen = "open  \n";
 constexpr std::string_view kClosed = "closed\n";
 
@@ -29,7 +29,7 @@ StoreLock::StoreLock(const std::filesystem::path& folder, Access access) : folde
     if (file_ < 0 && errno == ENOENT) {
       fail(folder_, "opening the store",
            {ErrorCode::io,
-            "engine.lock is missing, and the folder may not be written to; open it once with that right"});
+            "engine.lock is missing, and the folder is not writable; open it once with write permission"});
     }
   }
   if (file_ < 0) fail_system(folder_, "opening the store", errno);
@@ -46,16 +46,17 @@ StoreLock::~StoreLock() {
 }
 
 void StoreLock::take(short kind) const {
-  struct flock wanted {};
-  wanted.l_type = kind;
-  wanted.l_whence = SEEK_SET;
-  if (::fcntl(file_, F_OFD_SETLK, &wanted) == 0) return;
-  if (errno == EBADF) fail_system(folder_, "opening the store for writing", EACCES);  // opened for reading: no right
+  struct flock request {};
+  request.l_type = kind;
+  request.l_whence = SEEK_SET;
+  if (::fcntl(file_, F_OFD_SETLK, &request) == 0) return;
+  if (errno == EBADF)
+    fail_system(folder_, "opening the store for writing", EACCES);  // opened read-only: no write permission
   if (errno != EAGAIN && errno != EACCES) fail_system(folder_, "opening the store", errno);
   fail(folder_, "opening the store",
        {ErrorCode::conflict,
         "another process has it open, and this engine serves one process that writes or several that only read; try "
-        "again when that one has ended"});
+        "again when it has finished"});
 }
 
 void StoreLock::make_exclusive() {
@@ -63,17 +64,17 @@ void StoreLock::make_exclusive() {
 }
 
 void StoreLock::make_shared() noexcept {
-  struct flock wanted {};
-  wanted.l_type = F_RDLCK;
-  wanted.l_whence = SEEK_SET;
-  ::fcntl(file_, F_OFD_SETLK, &wanted);
+  struct flock request {};
+  request.l_type = F_RDLCK;
+  request.l_whence = SEEK_SET;
+  ::fcntl(file_, F_OFD_SETLK, &request);
 }
 
-void StoreLock::let_go() noexcept {
-  struct flock wanted {};
-  wanted.l_type = F_UNLCK;
-  wanted.l_whence = SEEK_SET;
-  ::fcntl(file_, F_OFD_SETLK, &wanted);
+void StoreLock::release() noexcept {
+  struct flock request {};
+  request.l_type = F_UNLCK;
+  request.l_whence = SEEK_SET;
+  ::fcntl(file_, F_OFD_SETLK, &request);
 }
 
 bool StoreLock::closed_in_order() const noexcept {

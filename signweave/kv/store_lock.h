@@ -4,31 +4,31 @@
 
 #include "signweave/kv/kv_store.h"
 
-/// Inside this module only.
+/// Internal to this module.
 namespace signweave::kv {
 
-/// The file engine.lock of a store whose engine serves one process that writes, or several that only read. It holds the
-/// lock, which the system takes back when the process ends, and one line that tells whether the last writer closed the
-/// store or was killed. (Locks of open files, not of processes: they pass from reading to writing without a gap, and
-/// other handles of the same file do not disturb them.)
+/// The file engine.lock of a store whose engine serves one writing process or several that only read. It carries the
+/// lock, which the system releases when the process ends, and one line that says whether the last writer closed the
+/// store or was killed. (Uses locks of open files, not of processes: they change from reading to writing without a gap,
+/// and other handles of the same file do not affect them.)
 class StoreLock {
  public:
-  /// Throws Error{conflict} where another process is in the way, Error{io} where the file cannot be opened.
+  /// Throws Error{conflict} if another process holds a conflicting lock, Error{io} if the file cannot be opened.
   StoreLock(const std::filesystem::path& folder, Access access);
   ~StoreLock();
   StoreLock(const StoreLock&) = delete;
   StoreLock& operator=(const StoreLock&) = delete;
 
-  /// From reading to writing; what was held stays held where that fails. Throws as the constructor does.
+  /// Changes the lock from reading to writing; on failure the old lock is still held. Throws as the constructor does.
   void make_exclusive();
-  /// Holds nothing; the object can take it again.
-  void let_go() noexcept;
-  /// From writing to reading.
+  /// Releases the lock; the object can take it again.
+  void release() noexcept;
+  /// Changes the lock from writing to reading.
   void make_shared() noexcept;
 
-  /// True where nobody wrote since the store was last closed in order.
+  /// True if the store was not written to since it was last closed in order.
   bool closed_in_order() const noexcept;
-  /// To be called before the first change, and after the store was closed. Throws Error{io}.
+  /// Must be called before the first change and after closing the store. Throws Error{io}.
   void mark(bool closed);
 
  private:

@@ -11,10 +11,10 @@
 
 #include "signweave/kv/kv_store.h"
 
-/// For tests: what may kill or limit a process is done in a child.
+/// For tests: runs code in a child process if it may kill or limit the process.
 namespace signweave::kv {
 
-/// Runs `action` in a child process, and returns what it threw ("" where nothing was).
+/// The outcome of an action in a child process: what it threw ("" if nothing).
 struct ChildResult {
   bool finished = false;  ///< false: killed by a signal
   ErrorCode code = ErrorCode::cancelled;
@@ -23,7 +23,7 @@ struct ChildResult {
 inline ChildResult in_child(const std::function<void()>& action) {
   int ends[2];
   if (::pipe(ends) != 0) return {};
-  std::fflush(nullptr);  // else the child may write it too
+  std::fflush(nullptr);  // otherwise the child might write it, too
   const pid_t child = ::fork();
   if (child == 0) {
     std::string message;
@@ -57,7 +57,7 @@ inline void require(bool condition, const char* what) {
   if (!condition) throw std::runtime_error(what);
 }
 
-/// Runs `action` in a child process that may read the store in `path` and not write to it.
+/// Runs `action` in a child process that may read the store in `path` but not write to it.
 inline ChildResult without_right_to_write(const std::filesystem::path& path, const std::function<void()>& action) {
   namespace fs = std::filesystem;
   fs::permissions(path.parent_path(), fs::perms(0755));
@@ -72,7 +72,7 @@ inline ChildResult without_right_to_write(const std::filesystem::path& path, con
   return result;
 }
 
-/// Puts 20 records a change, the first of each large.
+/// Applies changes of 20 records each, the first of which is large.
 inline void fill(KvStore& store, int changes) {
   for (int i = 0; i < changes; ++i) {
     const auto change = store.write();
@@ -84,7 +84,7 @@ inline void fill(KvStore& store, int changes) {
   }
 }
 
-/// Throws where something of `fill` is missing or wrong.
+/// Throws if any record of `fill` is missing or wrong.
 inline void read_everything(const KvStore& store, int changes) {
   const auto snapshot = store.read();
   for (int i = 0; i < changes; ++i) {

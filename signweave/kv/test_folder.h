@@ -8,7 +8,7 @@
 
 namespace signweave::kv {
 
-/// For tests: a new empty folder that goes with the object.
+/// For tests: a new empty folder that is removed with the object.
 class TestFolder {
  public:
   TestFolder() {

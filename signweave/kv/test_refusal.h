@@ -9,7 +9,7 @@
 
 namespace signweave::kv {
 
-/// For tests: the code of the Error that an action throws, and its text; a failure of the test where it throws none.
+/// For tests: the code and text of the Error that an action throws; fails the test if it throws none.
 inline ErrorCode refusal_of(const std::function<void()>& action, std::string* text = nullptr) {
   try {
     action();

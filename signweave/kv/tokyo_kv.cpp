@@ -12,11 +12,11 @@
 #include "signweave/kv/fault.h"
 #include "signweave/kv/versioned_store.h"
 
-// A store is one hash database in data.tch, and beside it, while it is open for writing, data.tch.wal: what the pages
-// held that the change under way has overwritten.
+// A store is one hash database in data.tch and, while it is open for writing, data.tch.wal with the former content of
+// the pages that the current change has overwritten.
 //
-// Tokyo Cabinet's own locks stay off: VersionedStore sees to it that no read runs beside a change, and under them every
-// reader would wait while a commit is flushed.
+// Tokyo Cabinet's own locks are not used: VersionedStore ensures that no read runs during a change, and with those
+// locks every reader would wait while a commit is flushed.
 
 namespace signweave::kv {
 
@@ -26,11 +26,11 @@ namespace fs = std::filesystem;
 
 constexpr const char* kTokyoFile = "data.tch";
 constexpr const char* kLogFile = "data.tch.wal";
-// A bucket is a tree, so that more entries than buckets do little harm; the buckets take 8 bytes each from the first.
+// A bucket is a tree, so more entries than buckets do little harm; each bucket takes 8 bytes from the start.
 constexpr std::uint32_t kBuckets = 131'071;
 constexpr std::uint8_t kAlignmentPower = 4;
 constexpr std::uint8_t kFreeBlocksPower = 12;
-// The map is only address space. Halved where the system refuses (ulimit -v).
+// The map is only address space. Halved if the system refuses (ulimit -v).
 constexpr std::int64_t kTokyoLargestMap = std::int64_t{1} << 40;
 constexpr std::int64_t kTokyoSmallestMap = std::int64_t{1} << 28;
 constexpr std::size_t kHeadSize = 256;
@@ -47,9 +47,8 @@ int size_of(ByteSpan bytes) {
     case TCERHEAD:
       fail(folder, doing, {ErrorCode::corrupt, "the store is damaged; restore it from a copy"});
     case TCELOCK:
-      fail(folder, doing,
-           {ErrorCode::conflict, "another program has the file open; try again when that one has ended"});
-    case TCEREAD:  // a place that the file does not have
+      fail(folder, doing, {ErrorCode::conflict, "another program has the file open; try again when it has finished"});
+    case TCEREAD:  // a position outside the file
       if (system == 0) fail(folder, doing, {ErrorCode::corrupt, "the store is damaged; restore it from a copy"});
       [[fallthrough]];
     default:
@@ -57,7 +56,7 @@ int size_of(ByteSpan bytes) {
   }
 }
 
-/// A number of the file's, whose bytes stand as Tokyo Cabinet was built to write them (Debian's: the highest first).
+/// Reads a number of the file, in the byte order of the Tokyo Cabinet build (Debian's: highest byte first).
 std::uint64_t number_at(ByteSpan bytes, std::size_t at, std::size_t size, bool highest_first) {
   std::uint64_t value = 0;
   for (std::size_t i = 0; i < size; ++i) {
@@ -67,8 +66,8 @@ std::uint64_t number_at(ByteSpan bytes, std::size_t at, std::size_t size, bool h
   return value;
 }
 
-/// Refuses what is no file of ours, and one shorter than its own head says. (With a change to undo, its size is not yet
-/// what its head says.)
+/// Rejects a foreign file, and one shorter than its own head says. (If a change must be undone, its size does not match
+/// its head yet.)
 void check_head(const fs::path& folder) {
   const fs::path path = folder / kTokyoFile;
   Bytes head(kHeadSize);
@@ -85,7 +84,7 @@ void check_head(const fs::path& folder) {
   if (text_of(head).substr(0, kTokyoMagic.size()) != kTokyoMagic || number_at(head, 32, 1, true) != TCDBTHASH ||
       number_at(head, 34, 1, true) != kAlignmentPower || number_at(head, 36, 1, true) != HDBTLARGE ||
       number_at(head, 40, 8, highest_first) != kBuckets) {
-    refuse("this is no file of Tokyo Cabinet as we make it");
+    refuse("this is not a Tokyo Cabinet file of signweave");
   }
   const std::uint64_t wanted = number_at(head, 56, 8, highest_first);
   if (bytes < wanted && !fs::exists(folder / kLogFile)) {
@@ -93,17 +92,17 @@ void check_head(const fs::path& folder) {
   }
 }
 
-/// Takes away what a writer that was killed left of its last line: Tokyo Cabinet would undo the rest, and then go on
-/// with what it knew before it did.
-void mend_log(const fs::path& folder) {
+/// Removes the incomplete last line of a killed writer's log: Tokyo Cabinet would undo the other lines and then
+/// continue with the state that it had read before.
+void repair_log(const fs::path& folder) {
   const fs::path path = folder / kLogFile;
   std::error_code error;
   const std::uint64_t bytes = fs::file_size(path, error);
-  if (error) return;  // there is none
+  if (error) return;  // there is no log
   std::ifstream file(path, std::ios::binary);
-  Bytes head(20);  // the file's size before the change; then of each line where, how many bytes, and they
+  Bytes head(20);  // the file's size before the change; then per line the position, the length and the bytes
   file.read(reinterpret_cast<char*>(head.data()), 20);
-  const bool highest_first = number_at(head, 16, 4, true) == kHeadSize;  // the first line is the file's head
+  const bool highest_first = number_at(head, 16, 4, true) == kHeadSize;  // the first line contains the file's head
   std::uint64_t whole = 8;
   while (whole + 12 <= bytes) {
     file.seekg(static_cast<std::streamoff>(whole + 8));
@@ -113,7 +112,7 @@ void mend_log(const fs::path& folder) {
     whole = next;
   }
   if (whole < bytes) fs::resize_file(path, whole, error);
-  if (error) fail_system(folder, "undoing what was left unfinished", error.value());
+  if (error) fail_system(folder, "undoing unfinished changes", error.value());
 }
 
 class TokyoStore final : public PlainStore {
@@ -128,7 +127,7 @@ class TokyoStore final : public PlainStore {
   }
   ~TokyoStore() override {
     if (changing_) ::tchdbtranabort(file_);
-    ::tchdbdel(file_);  // closes it too
+    ::tchdbdel(file_);  // also closes it
   }
 
   std::optional<ByteSpan> get(ByteSpan key, Bytes& buffer) const override {
@@ -142,7 +141,7 @@ class TokyoStore final : public PlainStore {
         return std::nullopt;
       }
       if (size < room) return ByteSpan(buffer).first(static_cast<std::size_t>(size));
-      const int whole = ::tchdbvsiz(file_, key.data(), size_of(key));  // it filled the room: perhaps it is longer
+      const int whole = ::tchdbvsiz(file_, key.data(), size_of(key));  // the buffer is full: the value may be longer
       if (whole < 0) need_sound("reading");
       make_room(buffer, static_cast<std::size_t>(whole) + 1);
     }
@@ -173,20 +172,19 @@ class TokyoStore final : public PlainStore {
   }
 
   void begin(std::size_t entries, std::uint64_t bytes) override {
-    // Tokyo Cabinet writes through a map, and a page for which the disk has no room would kill the program (SIGBUS).
+    // Tokyo Cabinet writes through a map, and a page for which the disk has no room would kill the process (SIGBUS).
     reserve(folder_, file_->fd, ::tchdbfsiz(file_), bytes + entries * kTokyoEntryHead);
     need(::tchdbtranbegin(file_), "beginning to write");
     changing_ = true;
   }
   void put(ByteSpan key, ByteSpan value) override {
-    const void* const data = value.empty() ? "" : static_cast<const void*>(value.data());  // null would be a bug to it
+    const void* const data = value.empty() ? "" : static_cast<const void*>(value.data());  // it does not accept null
     need(::tchdbput(file_, key.data(), size_of(key), data, size_of(value)), "writing");
   }
   void erase(ByteSpan key) override { need(::tchdbout(file_, key.data(), size_of(key)), "erasing"); }
-  // With HDBOTSYNC all this would be Tokyo Cabinet's own doing, but it flushes the log once for each entry: 512 puts
-  // took 97 ms, and 700 ms on a disk that others use too; so they take 5. (What it would add: between a change in the
-  // map and the flush of the log below, a few milliseconds, the system must not have written that page out before the
-  // power fails.)
+  // With HDBOTSYNC Tokyo Cabinet would do all this itself, but it flushes the log once per entry: 512 puts took 97 ms,
+  // or 700 ms on a shared disk; this way they take 5. (What HDBOTSYNC would add: in the few milliseconds between a
+  // change in the map and the flush of the log below, the system must not write that page out before a power failure.)
   void commit() override {
     need(::fdatasync(file_->walfd) == 0, "committing");  // what undoes the change,
     need(::tchdbmemsync(file_, true), "committing");     // the change,
@@ -211,8 +209,8 @@ class TokyoStore final : public PlainStore {
   void need(bool done, std::string_view doing) const {
     if (!done) fail_tokyo(folder_, doing, ::tchdbecode(file_), errno);
   }
-  /// Tells a fault from "not there". (A fault sets `fatal`, in the thread that met it before its call returns; the
-  /// error code is shared by all threads.)
+  /// Distinguishes an error from a missing key. (An error sets `fatal` in the thread that met it, before its call
+  /// returns; the error code is shared by all threads.)
   void need_sound(std::string_view doing) const { need(!file_->fatal || ::tchdbecode(file_) == TCENOREC, doing); }
 
   fs::path folder_;
@@ -224,14 +222,14 @@ void TokyoStore::open(Access access, bool make) {
   const std::string path = (folder_ / kTokyoFile).string();
   if (!make) {
     check_head(folder_);
-    if (access == Access::read_write) mend_log(folder_);
+    if (access == Access::read_write) repair_log(folder_);
   }
   std::error_code error;
   ::tchdbtune(file_, kBuckets, kAlignmentPower, kFreeBlocksPower, HDBTLARGE);
-  // HDBOTSYNC: what a recovery undoes is on disk before the log goes.
+  // HDBOTSYNC: a recovery is on disk before the log is removed.
   const int mode = access == Access::read_write ? HDBOWRITER | HDBOTSYNC | (make ? HDBOCREAT : 0) : HDBOREADER;
-  // Tokyo Cabinet refuses to open a file twice in a process, which OpenStores sees to, and takes what the parent
-  // process has open for that.
+  // Tokyo Cabinet refuses to open a file twice in a process, which OpenStores prevents, but it also mistakes the parent
+  // process's open files for its own.
   ::tcpathunlock(fs::canonical(folder_, error).append(kTokyoFile).c_str());
   for (std::int64_t map = kTokyoLargestMap;; map /= 2) {
     ::tchdbsetxmsiz(file_, map);
@@ -241,7 +239,7 @@ void TokyoStore::open(Access access, bool make) {
       need(false, make ? "making the store" : "opening the store");
     }
   }
-  file_->omode &= ~static_cast<std::uint32_t>(HDBOTSYNC);  // from here on `commit` flushes
+  file_->omode &= ~static_cast<std::uint32_t>(HDBOTSYNC);  // from now on `commit` flushes
 }
 
 constexpr PlainEngine kTokyo = {

@@ -16,14 +16,14 @@ namespace fs = std::filesystem;
 constexpr std::size_t kMostPuts = 512;
 constexpr std::size_t kMostBytes = std::size_t{16} << 20;
 
-/// Copies every entry, and reads each back.
+/// Copies every entry and reads it back.
 void copy(const PlainStore& from, PlainStore& to, const fs::path& folder,
           const std::function<void(double fraction)>& progress) {
   std::vector<std::string> keys;
   from.visit([&](ByteSpan key, std::size_t) { keys.emplace_back(text_of(key)); });
   if (keys.size() != from.entries()) {
     fail(folder, "compacting the store",
-         {ErrorCode::corrupt, "its entries are not as many as it counts; restore it from a copy"});
+         {ErrorCode::corrupt, "the number of its entries differs from its count; restore it from a copy"});
   }
   std::vector<Bytes> values;
   std::size_t bytes = 0, begin = 0;
@@ -38,7 +38,7 @@ void copy(const PlainStore& from, PlainStore& to, const fs::path& folder,
       if (back && std::ranges::equal(*back, values[i - begin])) continue;
       fail(folder, "compacting the store",
            {ErrorCode::io,
-            "the new file does not read back as it was written; it is left as it was, check memory and disk"});
+            "the new file does not read back as it was written; the old one is unchanged, check memory and disk"});
     }
     if (progress) progress(static_cast<double>(end) / static_cast<double>(keys.size()));
     values.clear();
@@ -56,7 +56,7 @@ void copy(const PlainStore& from, PlainStore& to, const fs::path& folder,
   if (!values.empty()) flush(keys.size());
 }
 
-/// Removes the engine's own files beside its main file, which are of no use once that was closed in order.
+/// Removes the engine's other files, which are useless once the main file was closed in order.
 void drop_logs(const fs::path& folder, const PlainEngine& engine) {
   std::vector<fs::path> logs;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
@@ -73,9 +73,9 @@ void drop_logs(const fs::path& folder, const PlainEngine& engine) {
 
 void compact_versioned(const fs::path& folder, const fs::path& compacting, const PlainEngine& engine,
                        const std::function<void(double fraction)>& progress) {
-  StoreLock lock(folder, Access::read_write);  // of an open file: it keeps out this process too
+  StoreLock lock(folder, Access::read_write);  // a lock of an open file: also excludes this process
   if (!lock.closed_in_order()) {
-    engine.open(folder, Access::read_write, false)->close();  // what was left unfinished is undone
+    engine.open(folder, Access::read_write, false)->close();  // undoes unfinished changes
     lock.mark(true);
   }
   {
@@ -85,7 +85,8 @@ void compact_versioned(const fs::path& folder, const fs::path& compacting, const
     to->close();
   }
   sync_file(compacting / engine.file);
-  // Closed in order, neither the old file nor the new one needs a log; but the new one must not meet the old one's.
+  // After an orderly close neither the old nor the new file needs a log, but the new file must not be used with the old
+  // one's log.
   drop_logs(folder, engine);
   std::error_code error;
   fs::rename(compacting / engine.file, folder / engine.file, error);

@@ -11,7 +11,7 @@ namespace {
 
 using Store = std::shared_ptr<VersionedStore>;
 
-/// Copies that a transaction lends until it ends.
+/// Holds copies that a transaction lends until it ends.
 class Lent {
  public:
   ByteSpan keep(ByteSpan value) { return lent_.emplace_back(value.begin(), value.end()); }
@@ -113,7 +113,7 @@ class VersionedWrite final : public WriteTransaction {
   Store store_;
   std::unique_lock<std::mutex> turn_;
   std::deque<Change> changes_;                                ///< in the order of the first change of each key
-  std::unordered_map<std::string_view, std::size_t> places_;  ///< of each key, which lies in changes_
+  std::unordered_map<std::string_view, std::size_t> places_;  ///< [key] index in changes_, which owns the key
   mutable Lent lent_;
 };
 
@@ -126,7 +126,7 @@ class VersionedKv final : public KvStore {
   std::unique_ptr<WriteTransaction> write() override {
     if (access_ == Access::read_only) {
       throw Error(ErrorCode::unsupported,
-                  store_->folder().string() + ": the store was opened for reading only; open it for writing");
+                  store_->folder().string() + ": the store was opened read-only; open it for writing");
     }
     return std::make_unique<VersionedWrite>(store_);
   }

@@ -19,8 +19,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The lock for oneself. Several that read may want it at once, and none gets it while the others hold their share.
-void take_turn(StoreLock& lock) {
+/// Takes the lock exclusively. Several readers may want it at once, and none gets it while the others hold their share.
+void lock_exclusively(StoreLock& lock) {
   using namespace std::chrono_literals;
   const auto end = std::chrono::steady_clock::now() + 5s;
   for (auto wait = 1ms;; wait = std::min(2 * wait, 50ms)) {
@@ -30,16 +30,16 @@ void take_turn(StoreLock& lock) {
     } catch (const Error& error) {
       if (error.code() != ErrorCode::conflict || std::chrono::steady_clock::now() > end) throw;
     }
-    lock.let_go();
+    lock.release();
     std::this_thread::sleep_for(wait);
   }
 }
 
-/// Opens a store that was not closed in order for writing, which mends it, and closes it.
+/// Opens a store that was not closed in order for writing, which repairs it, and closes it.
 void recover(const fs::path& folder, const PlainEngine& engine, StoreLock& lock) {
   try {
-    take_turn(lock);
-    if (lock.closed_in_order()) {  // another has done it meanwhile
+    lock_exclusively(lock);
+    if (lock.closed_in_order()) {  // another process has done it meanwhile
       lock.make_shared();
       return;
     }
@@ -48,10 +48,9 @@ void recover(const fs::path& folder, const PlainEngine& engine, StoreLock& lock)
     lock.make_shared();
   } catch (const Error& error) {
     if (error.code() != ErrorCode::io) throw;
-    fail(
-        folder, "opening the store",
-        {ErrorCode::io, std::string("the last writer did not close the store; open it once with the right to write (") +
-                            error.what() + ")"});
+    fail(folder, "opening the store",
+         {ErrorCode::io, std::string("the last writer did not close the store; open it once with write permission (") +
+                             error.what() + ")"});
   }
 }
 
@@ -82,8 +81,8 @@ VersionedStore::VersionedStore(fs::path folder, Access access, const PlainEngine
 
 VersionedStore::~VersionedStore() {
   if (process_ != ::getpid()) {
-    // After a fork the files are the parent's: closing would write into them. So it stays open, and goes with the
-    // process.
+    // After a fork the files belong to the parent, and closing would write to them. So the store stays open until the
+    // process ends.
     static_cast<void>(plain_.release());
     return;
   }
@@ -92,11 +91,11 @@ VersionedStore::~VersionedStore() {
     plain_->close();
     plain_.reset();
     mark_closed();
-  } catch (const Error&) {  // the next open mends it
+  } catch (const Error&) {  // the next open repairs it
   }
 }
 
-// Readers keep their snapshots: what they hold is a number, and the content is the same.
+// Snapshots of readers stay valid: a snapshot is just a number, and the content does not change.
 void VersionedStore::become_writable() {
   const std::lock_guard applying(applying_);
   if (writable_) return;
@@ -118,7 +117,7 @@ void VersionedStore::become_writable() {
 void VersionedStore::mark_closed() noexcept {
   try {
     lock_.mark(true);
-  } catch (const Error&) {  // the next open mends it
+  } catch (const Error&) {  // the next open repairs it
   }
 }
 
@@ -131,7 +130,7 @@ void VersionedStore::reopen() noexcept {
   }
 }
 
-void VersionedStore::mend() {
+void VersionedStore::repair() {
   const std::lock_guard applying(applying_);
   const std::lock_guard lock(access_);
   if (!plain_ || !plain_->sound()) reopen();
@@ -140,14 +139,13 @@ void VersionedStore::mend() {
 
 const PlainStore& VersionedStore::plain() const {
   if (plain_) return *plain_;
-  throw Error(
-      ErrorCode::io,
-      folder_.string() + ": the store had to be opened again after a failure, and could not be (" + why_closed_ + ")");
+  throw Error(ErrorCode::io,
+              folder_.string() + ": the store could not be reopened after a failure (" + why_closed_ + ")");
 }
 
 void VersionedStore::check_process() const {
   if (process_ == ::getpid()) return;
-  throw Error(ErrorCode::conflict, folder_.string() + ": this store was opened by the parent process; open it anew");
+  throw Error(ErrorCode::conflict, folder_.string() + ": this store was opened by the parent process; open it again");
 }
 
 void VersionedStore::check_key(ByteSpan key) const {
@@ -159,7 +157,7 @@ void VersionedStore::check_key(ByteSpan key) const {
 
 std::uint64_t VersionedStore::begin_snapshot() {
   check_process();
-  if (broken_) mend();
+  if (broken_) repair();
   const std::lock_guard lock(snapshots_mutex_);
   ++snapshots_[version_];
   return version_;
@@ -190,8 +188,8 @@ std::optional<ByteSpan> VersionedStore::get(std::uint64_t snapshot, ByteSpan key
     }
     return plain().get(key, buffer);
   } catch (const Error&) {
-    broken_ = true;  // perhaps: `mend` looks
-    mend();          // at once: a damaged page must not keep this snapshot from the sound ones
+    broken_ = true;  // possibly: `repair` checks
+    repair();        // now, so that a damaged page does not block this snapshot's other pages
     throw;
   }
 }
@@ -207,7 +205,7 @@ std::unique_lock<std::mutex> VersionedStore::begin_write() {
     throw Error(ErrorCode::conflict, folder_.string() + ": this thread is writing already; end that change first");
   }
   std::unique_lock turn(writing_);
-  if (broken_) mend();
+  if (broken_) repair();
   writer_ = std::this_thread::get_id();
   return turn;
 }
@@ -224,7 +222,7 @@ void VersionedStore::apply(const std::deque<Change>& changes) {
     Bytes buffer;
     for (const Change& change : changes) {
       const ByteSpan key = bytes_of(change.key);
-      const std::optional<ByteSpan> old = plain_->get(key, buffer);  // unlocked: nobody else changes anything
+      const std::optional<ByteSpan> old = plain_->get(key, buffer);  // unlocked: there is no other writer
       const std::lock_guard lock(access_);
       kept_ = true;
       old_.keep(number, key, old);
@@ -249,7 +247,7 @@ void VersionedStore::apply(const std::deque<Change>& changes) {
       if (!plain_->sound()) reopen();
       broken_ = !plain_;
     }
-    // The old values are what older snapshots see, whether the engine kept the change or not.
+    // Older snapshots see the old values, whether the engine stored the change or not.
     publish(number);
     throw;
   }
@@ -265,7 +263,7 @@ void VersionedStore::publish(std::uint64_t number) {
 }
 
 void VersionedStore::forget() {
-  std::vector<std::optional<Bytes>> forgotten;  // freed last, without a lock
+  std::vector<std::optional<Bytes>> forgotten;  // freed last, outside the lock
   std::uint64_t oldest = 0;
   {
     const std::lock_guard lock(snapshots_mutex_);
@@ -291,7 +289,7 @@ void VersionedStore::visit(const std::function<void(ByteSpan key, std::size_t va
     std::string key;
     std::size_t size;
   };
-  std::vector<Entry> entries;  // told without a lock: who listens may read and write
+  std::vector<Entry> entries;  // reported outside the lock: `see` may read and write
   {
     const std::lock_guard applying(applying_);
     plain().visit([&](ByteSpan key, std::size_t size) { entries.push_back({std::string(text_of(key)), size}); });

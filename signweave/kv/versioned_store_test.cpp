@@ -13,12 +13,12 @@ namespace {
 using testing::HasSubstr;
 using testing::Optional;
 
-/// An engine in memory that fails, and lets a test look in, where it is told to.
+/// An engine in memory that fails on request and calls the test before each step.
 struct Fake {
   std::map<std::string, std::string> durable;
   std::function<void()> before_each_step = [] {};
   std::string fails_at;  ///< "put", "commit" or nothing
-  bool breaks = false;   ///< a failure can only be mended by opening anew
+  bool breaks = false;   ///< a failure can only be repaired by reopening
   bool cannot_open = false;
   int opened = 0;
 } fake;
@@ -109,7 +109,7 @@ class VersionedStoreTest : public testing::Test {
 
 TEST_F(VersionedStoreTest, ASnapshotThatBeginsWhileAChangeIsAppliedSeesNothingOfItBeforeItIsDurable) {
   std::vector<std::unique_ptr<ReadTransaction>> begun;
-  fake.before_each_step = [&] {  // before the first step, and when all but the flush is done
+  fake.before_each_step = [&] {  // before the first step, and when everything but the flush is done
     begun.push_back(store_->read());
     EXPECT_EQ(all_of(*begun.back()), "old old - - ");
   };
@@ -124,7 +124,7 @@ TEST_F(VersionedStoreTest, ASnapshotThatBeginsWhileAChangeIsAppliedSeesNothingOf
   for (const auto& snapshot : begun) EXPECT_EQ(all_of(*snapshot), "old old - - ");
   EXPECT_EQ(all_of(*store_->read()), "new - - new ");
   begun.erase(begun.begin());
-  EXPECT_EQ(all_of(*begun[0]), "old old - - ") << "the end of one snapshot takes nothing from another";
+  EXPECT_EQ(all_of(*begun[0]), "old old - - ") << "the end of one snapshot does not affect another";
 }
 
 TEST_F(VersionedStoreTest, EachSnapshotSeesTheChangesBeforeIt) {
@@ -168,10 +168,10 @@ TEST_F(VersionedStoreTest, AFailureAtAnyStepLeavesTheOldStateAndTheNextChangeWor
   }
 }
 
-TEST_F(VersionedStoreTest, WhatWasKeptAlthoughItsCommitFailedIsNotSeenByOlderSnapshots) {
+TEST_F(VersionedStoreTest, AChangeStoredByAFailedCommitIsNotSeenByOlderSnapshots) {
   const auto before = store_->read();
   fake.before_each_step = [] {
-    fake.durable["a"] = "new";  // the disk has it, and says no all the same
+    fake.durable["a"] = "new";  // the change is on disk although the commit reports a failure
   };
   fake.fails_at = "commit";
   fake.breaks = true;
@@ -180,7 +180,7 @@ TEST_F(VersionedStoreTest, WhatWasKeptAlthoughItsCommitFailedIsNotSeenByOlderSna
   EXPECT_THAT(at(*store_->read(), "a"), Optional(std::string("new")));
 }
 
-TEST_F(VersionedStoreTest, WhereOpeningAnewFailsItSaysSoAndTriesAgain) {
+TEST_F(VersionedStoreTest, AFailedReopeningIsReportedAndTriedAgain) {
   fake.fails_at = "commit";
   fake.breaks = fake.cannot_open = true;
   const auto before = store_->read();
@@ -191,7 +191,7 @@ TEST_F(VersionedStoreTest, WhereOpeningAnewFailsItSaysSoAndTriesAgain) {
     ADD_FAILURE() << "nothing was thrown";
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ErrorCode::io);
-    EXPECT_THAT(error.what(), HasSubstr("had to be opened again after a failure, and could not be (no room to open)"));
+    EXPECT_THAT(error.what(), HasSubstr("could not be reopened after a failure (no room to open)"));
   }
   fake.cannot_open = false;
   EXPECT_EQ(all_of(*store_->read()), "old old - - ");
@@ -222,7 +222,7 @@ TEST_F(VersionedStoreTest, ReadersInALoopDoNotStarveTheWriter) {
       while (!stop && std::chrono::steady_clock::now() < end) snapshot->get(bytes_of("slow"), buffer);
     });
   }
-  std::this_thread::sleep_for(std::chrono::milliseconds(20));  // at every moment some of them hold the lock
+  std::this_thread::sleep_for(std::chrono::milliseconds(20));  // at any moment some of them hold the lock
   std::map<std::string, std::string> many;
   for (int i = 0; i < 100; ++i) many[std::to_string(i)] = "x";
   put(many);
@@ -231,7 +231,7 @@ TEST_F(VersionedStoreTest, ReadersInALoopDoNotStarveTheWriter) {
   for (std::thread& reader : readers) reader.join();
 }
 
-TEST_F(VersionedStoreTest, AValueThatIsTooLargeIsRefusedWhenItIsPut) {
+TEST_F(VersionedStoreTest, ATooLargeValueIsRefusedByPut) {
   const auto change = store_->write();
   try {
     change->put(bytes_of("a"), bytes_of(std::string(1'001, 'x')));
@@ -242,7 +242,7 @@ TEST_F(VersionedStoreTest, AValueThatIsTooLargeIsRefusedWhenItIsPut) {
   }
 }
 
-TEST(OldValues, AreKeptForAsLongAsASnapshotNeedsThem) {
+TEST(OldValues, AreStoredAsLongAsASnapshotNeedsThem) {
   OldValues old;
   old.keep(5, bytes_of("k"), bytes_of("four"));
   old.keep(5, bytes_of("other"), std::nullopt);

@@ -40,7 +40,7 @@ std::optional<ShownScore> ClipChain::score(const TransitionBuilder& builder, con
   }
   PlacedClip& front = plan.placed.front();
   PlacedClip& back = plan.placed.back();
-  front.before = clips_[left_out]->cuts ? 0 : front.preparation;  // what led to it is not of this score
+  front.before = clips_[left_out]->cuts ? 0 : front.preparation;  // its transition is not part of this score
   const std::int64_t begin = front.begin();
   for (PlacedClip& placed : plan.placed) placed.core -= begin;
   plan.frames = end - begin;

@@ -9,29 +9,29 @@
 #include "signweave/live/player.h"
 #include "signweave/live/transition_builder.h"
 
-/// Inside this module only.
+/// Internal to this module.
 namespace signweave {
 
-/// A score that grows at its end: the clips that a stream showed and will show, each joined to the one before it, since
-/// it last jumped or was interrupted. Of a long one the first clips are left out. Belongs to one thread.
+/// A score that grows at its end: the clips that a stream has shown and will show since its last jump or interruption,
+/// each joined to the previous one. Only the last clips of a long one are stored. Used by one thread.
 class ClipChain {
  public:
   bool empty() const noexcept { return clips_.empty(); }
-  /// The last clip; the next one is joined to it.
+  /// The last clip; the next one will be joined to it.
   const std::shared_ptr<LiveClip>& back() const noexcept { return clips_.back(); }
 
   void clear() noexcept { clips_.clear(); }
-  /// A new score that begins with that clip.
+  /// Starts a new score with this clip.
   void begin(std::shared_ptr<LiveClip> clip);
-  /// A clip that was joined to the last one.
+  /// Adds a clip that was joined to the last one.
   void add(std::shared_ptr<LiveClip> clip);
-  /// Leaves out all clips after that one; where it is none of them, the score begins with it.
+  /// Removes all clips after this one; if it is not in the chain, the score starts with it.
   void end_with(const std::shared_ptr<LiveClip>& clip);
-  /// The last clip as it is now: shorter than it was.
+  /// Replaces the last clip by a shorter version of it.
   void replace_back(std::shared_ptr<LiveClip> clip);
 
-  /// The score up to output frame `end`, of the last clips; `next`: the frame that is shown next. None where nothing
-  /// of it is known.
+  /// The score of the last clips, up to output frame `end`; `next` is the frame that is shown next. None if the chain
+  /// is empty.
   std::optional<ShownScore> score(const TransitionBuilder& builder, const SourceRef& skeleton, std::int64_t next,
                                   std::int64_t end, std::size_t most_clips) const;
 

@@ -7,15 +7,15 @@
 
 #include "signweave/core/error.h"
 
-// Rounding without a branch or a call, so that the compiler turns the loop over rotations into vector instructions: a
-// number of moderate size, added to one so large that its last place counts whole units, is rounded to them, and the
-// low bits of the sum are the whole number in two's complement.
+// Rounding without branches or calls, so that the compiler can vectorize the loop over rotations: adding a number of
+// moderate size to one so large that its last place has the value 1 rounds the sum to an integer, and the low bits of
+// the sum are that integer in two's complement.
 
 namespace signweave {
 namespace {
 
-static_assert(std::endian::native == std::endian::little, "messages are written as the machine has its numbers");
-static_assert(sizeof(Eigen::Quaternionf) == 4 * sizeof(float), "rotations lie in memory without padding");
+static_assert(std::endian::native == std::endian::little, "messages use the machine's byte order");
+static_assert(sizeof(Eigen::Quaternionf) == 4 * sizeof(float), "rotations are stored without padding");
 
 constexpr double kPerMetre = 100'000.0;
 constexpr float kPerUnit = 32'767.0f;
@@ -23,7 +23,7 @@ constexpr double kMostUnits = 2'147'483'647.0;
 constexpr float kRoundsFloats = 12'582'912.0f;              // 1.5 · 2^23, low bits 0
 constexpr double kRoundsDoubles = 6'755'399'441'055'744.0;  // 1.5 · 2^52, low bits 0
 
-/// `least` to `most`.
+/// Clamps to [least, most].
 template <typename Number>
 [[gnu::always_inline]] inline Number within(Number value, Number least, Number most) noexcept {
   const Number kept = value < most ? value : most;
@@ -39,7 +39,7 @@ template <typename Number>
   return static_cast<std::int32_t>(std::bit_cast<std::uint64_t>(units + kRoundsDoubles));
 }
 
-// Volatile, so that the compiler does not know them: comparisons with known numbers become branches.
+// Volatile, because the compiler turns comparisons with known constants into branches.
 const volatile float kLeastRotation = -kPerUnit;
 const volatile float kMostRotation = kPerUnit;
 
@@ -80,7 +80,7 @@ void encode(const FrameView& frame, std::span<std::byte> out) noexcept {
   const std::size_t pairs = 2 * frame.pose.rotations.size();
   const float least = kLeastRotation;
   const float most = kMostRotation;
-  // Two numbers at a time: whole words cost fewer shuffles than halves.
+  // Two values at a time: whole words need fewer shuffles than halves.
   for (std::size_t i = 0; i < pairs; ++i) {
     const std::uint32_t units = rotation_units(from[2 * i], least, most) | rotation_units(from[2 * i + 1], least, most)
                                                                                << 16;
@@ -89,16 +89,16 @@ void encode(const FrameView& frame, std::span<std::byte> out) noexcept {
 }
 
 MessageHeader decode_header(std::span<const std::byte> message, const FrameShape& shape) {
-  if (message.size() < kMessageHeaderBytes) throw Error(ErrorCode::bad_input, "a message without a header");
+  if (message.size() < kMessageHeaderBytes) throw Error(ErrorCode::bad_input, "the message has no complete header");
   const std::byte* from = message.data();
-  if (get<std::uint8_t>(from) != 1) throw Error(ErrorCode::bad_input, "a message of another layout");
+  if (get<std::uint8_t>(from) != 1) throw Error(ErrorCode::bad_input, "the message has an unknown layout");
   from += 1;
   MessageHeader header;
   header.frames = get<std::uint16_t>(from);
   header.left_out = get<std::uint32_t>(from);
   header.first_frame = get<std::uint64_t>(from);
   if (message.size() != kMessageHeaderBytes + header.frames * bytes_of(shape)) {
-    throw Error(ErrorCode::bad_input, "a message that has not the size of its frames");
+    throw Error(ErrorCode::bad_input, "the size of the message does not match its frames");
   }
   return header;
 }

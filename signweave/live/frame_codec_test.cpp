@@ -31,7 +31,7 @@ struct OwnedFrame {
 };
 
 std::vector<std::byte> bytes_of_frame(const OwnedFrame& frame) {
-  // One byte more on either side: a frame need not lie at a round address, and nothing is written beside it.
+  // One extra byte on either side: a frame need not be aligned, and nothing is written outside it.
   std::vector<std::byte> bytes(bytes_of(frame.shape()) + 2, std::byte{0xaa});
   encode(frame.view(), std::span(bytes).subspan(1, bytes.size() - 2));
   EXPECT_EQ(bytes.front(), std::byte{0xaa});
@@ -45,14 +45,14 @@ OwnedFrame there_and_back(const OwnedFrame& frame) {
   return back;
 }
 
-/// Radians, exact for small angles.
+/// The angle in radians, accurate for small angles.
 double angle_between(const Eigen::Quaternionf& a, const Eigen::Quaternionf& b) {
   const Eigen::Quaterniond from = a.cast<double>().normalized();
   const Eigen::Quaterniond to = b.cast<double>().normalized();
   return 2 * std::atan2((from.conjugate() * to).vec().norm(), std::abs(from.dot(to)));
 }
 
-/// Any unit quaternion, also such as have zeros.
+/// An arbitrary unit quaternion, including ones with zeros.
 Eigen::Quaternionf any_rotation() {
   const auto number = rc::gen::map(rc::gen::inRange(-1000, 1001), [](int n) { return static_cast<float>(n) / 1000; });
   Eigen::Vector4f numbers(*number, *number, *number, *number);
@@ -83,7 +83,7 @@ std::string hex(std::span<const std::byte> bytes) {
   return text;
 }
 
-TEST(FrameCodec, IsTheExampleInTheHeader) {
+TEST(FrameCodec, MatchesTheExampleInTheHeader) {
   OwnedFrame frame({.joints = 1, .translations = 1, .tracks = 1});
   frame.pose.translations[0] = {1.0f, -0.5f, 2.00001f};
   frame.tracks[0] = 0.25f;
@@ -112,7 +112,7 @@ RC_GTEST_PROP(FrameCodec, FramesComeBackWithinTheBound, ()) {
   for (std::size_t i = 0; i < frame.pose.rotations.size(); ++i) {
     RC_ASSERT(angle_between(frame.pose.rotations[i], back.pose.rotations[i]) <= kRotationError);
     RC_ASSERT(std::abs(back.pose.rotations[i].norm() - 1) < 1e-6f);
-    RC_ASSERT(frame.pose.rotations[i].dot(back.pose.rotations[i]) > 0);  // its sign stays as well
+    RC_ASSERT(frame.pose.rotations[i].dot(back.pose.rotations[i]) > 0);  // its sign is preserved too
   }
   for (std::size_t i = 0; i < frame.pose.translations.size(); ++i) {
     const Eigen::Vector3d off = frame.pose.translations[i].cast<double>() - back.pose.translations[i].cast<double>();
@@ -123,8 +123,8 @@ RC_GTEST_PROP(FrameCodec, FramesComeBackWithinTheBound, ()) {
   }
 }
 
-// The loop is written for vectors: the same as one number at a time, as the standard library rounds.
-RC_GTEST_PROP(FrameCodec, AnyNumbersBecomeWholeOnesWithinTheirRange, ()) {
+// The vectorized loop gives the same results as the standard library's rounding of single values.
+RC_GTEST_PROP(FrameCodec, AnyNumbersAreRoundedAndClamped, ()) {
   OwnedFrame frame({.joints = *rc::gen::inRange<std::size_t>(0, 9), .translations = 2, .tracks = 0});
   for (Eigen::Quaternionf& q : frame.pose.rotations) q.coeffs() << any_float(), any_float(), any_float(), any_float();
   for (Eigen::Vector3f& t : frame.pose.translations) t << any_float(), any_float(), any_float();
@@ -147,11 +147,11 @@ RC_GTEST_PROP(FrameCodec, AnyNumbersBecomeWholeOnesWithinTheirRange, ()) {
   }
 }
 
-TEST(FrameCodec, ExtremesAndWhatIsNoNumberHaveTheirPlace) {
+TEST(FrameCodec, ExtremesAndNaNAreEncoded) {
   OwnedFrame frame({.joints = 2, .translations = 1, .tracks = 0});
   frame.pose.translations[0] = {kInfinity, -kInfinity, kNoNumber};
   frame.pose.rotations[0].coeffs() << kInfinity, -kInfinity, kNoNumber, -kNoNumber;
-  frame.pose.rotations[1].coeffs() << 1.5f, -3e38f, 1e-45f, std::bit_cast<float>(0x7f801234u);  // a signalling one
+  frame.pose.rotations[1].coeffs() << 1.5f, -3e38f, 1e-45f, std::bit_cast<float>(0x7f801234u);  // a signalling NaN
   const std::vector<std::byte> bytes = bytes_of_frame(frame);
   EXPECT_EQ(number_at<std::int32_t>(bytes, 0), 2147483647);
   EXPECT_EQ(number_at<std::int32_t>(bytes, 4), -2147483647);
@@ -160,7 +160,7 @@ TEST(FrameCodec, ExtremesAndWhatIsNoNumberHaveTheirPlace) {
   for (std::size_t i = 0; i < 8; ++i) EXPECT_EQ(number_at<std::int16_t>(bytes, 12 + 2 * i), expected[i]) << i;
 }
 
-TEST(FrameCodec, ARotationOfFourZerosIsNone) {
+TEST(FrameCodec, AZeroQuaternionBecomesIdentity) {
   OwnedFrame frame({.joints = 1, .translations = 0, .tracks = 0});
   frame.pose.rotations[0].coeffs().setZero();
   EXPECT_TRUE(there_and_back(frame).pose.rotations[0].isApprox(Eigen::Quaternionf::Identity()));
@@ -197,7 +197,7 @@ RC_GTEST_PROP(FrameCodec, AMessageOfAnyOtherFormIsRefused, ()) {
   }
 }
 
-TEST(FrameCodec, OtherLayoutsAndSizesAreRefused) {
+TEST(FrameCodec, OtherLayoutsAndSizesAreRejected) {
   const FrameShape shape{.joints = 2, .translations = 1, .tracks = 0};
   std::vector<std::byte> message(kMessageHeaderBytes + 2 * bytes_of(shape));
   encode(MessageHeader{.frames = 2}, message);

@@ -11,8 +11,8 @@
 
 namespace signweave {
 
-/// The last frames of a growing series, with their tracks, in memory that is allocated once. Frames have numbers; those
-/// from begin() to end() are there.
+/// The last frames of a growing sequence, with their tracks, in memory that is allocated once. Frames are numbered;
+/// those in [begin(), end()) are stored.
 class FrameRing {
  public:
   FrameRing() = default;
@@ -27,7 +27,7 @@ class FrameRing {
   std::int64_t end() const noexcept { return end_; }
   std::int64_t capacity() const noexcept { return capacity_; }
 
-  /// A frame that is there. Borrowed until it is forgotten.
+  /// A stored frame. Borrowed until it is dropped.
   FrameView at(std::int64_t frame) const noexcept {
     assert(frame >= begin_ && frame < end_);
     const std::size_t slot = slot_of(frame);
@@ -36,7 +36,7 @@ class FrameRing {
             std::span(tracks_).subspan(slot * shape_.tracks, shape_.tracks)};
   }
 
-  /// Brings near what at(frame) will show.
+  /// Prefetches the memory of at(frame).
   void prefetch_frame(std::int64_t frame) const noexcept {
     if (frame < begin_ || frame >= end_) return;
     const FrameView view = at(frame);
@@ -45,28 +45,28 @@ class FrameRing {
     prefetch(view.tracks.data(), view.tracks.size_bytes());
   }
 
-  /// Frames after end() that lie side by side, at most `most` and as many as there is room for.
+  /// Number of contiguous free frames after end(), at most `most`.
   std::int64_t room(std::int64_t most) const noexcept {
     const std::int64_t free = capacity_ - (end_ - begin_);
     const std::int64_t until_wrap = capacity_ - static_cast<std::int64_t>(slot_of(end_));
     return std::min({most, free, until_wrap});
   }
-  /// Where the next frames belong; `count` of at most room().
+  /// Memory of the next `count` frames; `count` is at most room().
   MutablePoses poses(std::int64_t count) noexcept {
     const std::size_t slot = slot_of(end_);
     const auto frames = static_cast<std::size_t>(count);
     return {std::span(rotations_).subspan(slot * shape_.joints, frames * shape_.joints),
             std::span(translations_).subspan(slot * shape_.translations, frames * shape_.translations)};
   }
-  /// [track] of the frame `ahead` places after end(), which must have room.
+  /// [track] values of frame end() + `ahead`, which must have room.
   std::span<float> tracks(std::int64_t ahead) noexcept {
     return std::span(tracks_).subspan(slot_of(end_ + ahead) * shape_.tracks, shape_.tracks);
   }
-  /// They are there now.
+  /// Adds `count` frames, whose memory has been filled.
   void grow(std::int64_t count) noexcept { end_ += count; }
-  /// Forgets the frames before one.
+  /// Drops the frames before `before`.
   void forget(std::int64_t before) noexcept { begin_ = std::clamp(before, begin_, end_); }
-  /// Takes back the frames from one on.
+  /// Removes the frames from `from` on.
   void cut(std::int64_t from) noexcept { end_ = std::clamp(from, begin_, end_); }
 
  private:

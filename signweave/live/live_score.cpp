@@ -7,13 +7,13 @@
 
 #include "signweave/core/error.h"
 
-// The score and its timeline; how places are signed is in growing_places.cpp.
+// The score and its timeline; signing of places is in live_score_places.cpp.
 namespace signweave {
 namespace {
 
-/// The timeline grows by so much at rest.
+/// Number of frames by which the timeline grows at rest.
 constexpr std::int64_t kRestFramesAtOnce = 32;
-/// So many frames are read at once.
+/// Number of frames read at once.
 constexpr std::int64_t kChunk = 64;
 
 }  // namespace
@@ -29,12 +29,12 @@ bool LiveScore::extend(const FrameRing& shown) {
   try {
     return grow();
   } catch (const Error&) {
-    if (!chain_.empty() && !can_read(tail())) go_on_from(shown);
+    if (!chain_.empty() && !can_read(tail())) continue_from(shown);
     throw;
   }
 }
 
-/// False where what is placed has been removed since, or is damaged.
+/// False if the clip's recording has been removed since, or is damaged.
 bool LiveScore::can_read(const LiveClip& clip) const {
   Motion one(setup_->header.skeleton, setup_->header.rate, 1);
   const std::int64_t last = clip.placed.core_end() - 1;
@@ -46,8 +46,8 @@ bool LiveScore::can_read(const LiveClip& clip) const {
   }
 }
 
-/// Nothing follows the frames that are made but what is signed next, from there: what was placed cannot be read.
-void LiveScore::go_on_from(const FrameRing& made) {
+/// Continues from the frames made so far, because the placed clip cannot be read.
+void LiveScore::continue_from(const FrameRing& made) {
   last_sign_ = {};
   if (made.end() > made.begin()) {
     chain_.begin(history_of(made.end(), made));
@@ -100,7 +100,7 @@ void LiveScore::go_to_rest() {
   timeline_.append({end(), end() + kRestFramesAtOnce}, rest);
 }
 
-/// Lays b behind a; the frames between them, made now or before.
+/// Places b after a. Returns the frames between them, from the cache if possible.
 std::shared_ptr<const Motion> LiveScore::join(LiveClip& a, LiveClip& b) {
   std::string key;
   if (!a.key.empty() && !b.key.empty()) {
@@ -158,14 +158,14 @@ void LiveScore::cut(std::int64_t end) {
   timeline_.cut(end);
 }
 
-/// What followed the last sign is not shown after all.
+/// Removes what follows the last sign.
 void LiveScore::end_with_last_sign() {
   chain_.end_with(last_sign_.clip);
   cut(tail().placed.core_end());
   state_ = State::at_core;
 }
 
-/// Goes on from what is shown, whatever it is.
+/// Continues from the shown pose.
 void LiveScore::leave(std::int64_t next, const FrameRing& shown) {
   if (state_ == State::nothing) return;
   last_sign_.clip.reset();
@@ -183,10 +183,10 @@ void LiveScore::leave(std::int64_t next, const FrameRing& shown) {
   state_ = State::at_core;
 }
 
-/// The rest, which is the tail, goes on no longer.
+/// Ends the rest, which is the tail, at `next`.
 void LiveScore::leave_rest_at(std::int64_t next) {
   tail().placed.core_frames = next - tail().placed.core;
-  tail().key.clear();  // what follows it depends on the moment
+  tail().key.clear();  // the following transition depends on `next`
 }
 
 void LiveScore::add(const Utterance& utterance, std::int64_t next, const FrameRing& shown) {
@@ -201,7 +201,7 @@ void LiveScore::set_loop(bool loop, std::int64_t next, const FrameRing& shown) {
   if (queue_.has_next()) reopen(next, shown);
 }
 
-/// Something follows after all what was thought the end.
+/// Continues after what was the end.
 void LiveScore::reopen(std::int64_t next, const FrameRing& shown) {
   if (state_ != State::resting && state_ != State::ended) return;
   if (last_sign_.clip != nullptr && next <= last_sign_.clip->placed.core_end()) {
@@ -234,15 +234,15 @@ void LiveScore::replace(const Utterance& utterance, std::int64_t next, const Fra
   last_round_.clear();
   last_sign_.signs.reset();
   if (finished || state_ == State::nothing) return;
-  if (queue_.empty() && state_ != State::at_core) return;  // on its way to rest, or there
+  if (queue_.empty() && state_ != State::at_core) return;  // moving to rest, or at rest
   if (state_ == State::at_core && next >= end()) return;
   leave(next, shown);
 }
 
-/// Where a sign's core is shown, the timeline ends with that sign, or at once where it lasts long. False where none is.
+/// If a sign's core is shown, ends the timeline with that sign, or immediately if it is long. Returns false otherwise.
 bool LiveScore::finish_sign(std::int64_t next) {
   if (entries_.empty() && last_sign_.clip != nullptr && next >= last_sign_.clip->placed.core &&
-      next < last_sign_.clip->placed.core_end()) {  // as it was cut when the last utterance began
+      next < last_sign_.clip->placed.core_end()) {  // as cut when the last utterance began
     end_with_last_sign();
     return true;
   }
@@ -250,7 +250,7 @@ bool LiveScore::finish_sign(std::int64_t next) {
   if (clip == nullptr) return false;
   const PlacedClip& placed = clip->placed;
   if (clip->captured.kind == SourceRef::Kind::rest || next < placed.core || next >= placed.core_end()) return false;
-  std::optional<std::size_t> last_place;  // none: all of its signs are finished
+  std::optional<std::size_t> last_place;  // none: all its signs are finished
   FrameRange core = clip->captured.core;
   FrameRange whole = clip->captured.whole;
   const auto entry = std::ranges::find(entries_, clip, &Entry::clip);
@@ -296,7 +296,7 @@ bool LiveScore::finish_sign(std::int64_t next) {
 bool LiveScore::seek(std::int64_t at, std::int64_t next) {
   if (entries_.empty()) return false;
   const auto end_of = [](const Entry& entry) { return entry.core + entry.clip->placed.core_frames; };
-  // A loop that has just begun anew: the round before tells what comes later.
+  // A loop that has just restarted: later places are found in the previous round.
   const bool earlier = at >= end_of(entries_.back()) && !last_round_.empty();
   const std::vector<Entry>& entries = earlier ? last_round_ : entries_;
   at = std::clamp<std::int64_t>(at, entries.front().begin, end_of(entries.back()) - 1);
@@ -323,7 +323,7 @@ bool LiveScore::seek(std::int64_t at, std::int64_t next) {
     clip->placed.core = next + entry.core - at;
   }
   cut(next);
-  timeline_.begin_anew(next);
+  timeline_.restart(next);
   events_.push_back({.kind = PlayerEvent::Kind::seek, .frame = static_cast<std::uint64_t>(next), .at = time_of(at)});
   if (made != nullptr) {
     chain_.begin(std::move(before_it));
@@ -338,7 +338,7 @@ bool LiveScore::seek(std::int64_t at, std::int64_t next) {
   if (earlier) entries_ = std::move(last_round_);
   last_round_.clear();
   entries_.resize(index + 1);
-  queue_.go_on_at(entries_.back().last + 1);
+  queue_.continue_at(entries_.back().last + 1);
   last_sign_ = {.clip = clip, .signs = {}};
   state_ = State::at_core;
   report_places(entries_.back(), next);
@@ -355,11 +355,11 @@ void LiveScore::read(std::int64_t until, FrameRing& ring) {
     try {
       timeline_.read({ring.end(), ring.end() + count}, *setup_->builder, ring);
     } catch (const Error&) {
-      go_on_from(ring);
+      continue_from(ring);
       throw;
     }
     if (ring.end() > ring.begin()) {
-      // One rotation keeps one sign over the whole stream.
+      // Each rotation keeps its quaternion sign over the whole stream.
       const PoseView before = ring.at(ring.end() - 1).pose;
       for (std::size_t joint = 0; joint < joints; ++joint) {
         if (before.rotations[joint].dot(poses.rotations[joint]) >= 0) continue;

@@ -8,7 +8,7 @@
 #include "signweave/live/live_score.h"
 #include "signweave/retarget/retargeted_source.h"
 
-// How places are signed; where their frames come to lie is in growing_utterance.cpp.
+// Signing of places; the positions of their frames are managed in live_score.cpp.
 namespace signweave {
 
 MotionClip LiveScore::clip_of(const PlaceQueue::Decision& decision, std::size_t place) {
@@ -41,8 +41,8 @@ std::shared_ptr<const MotionSource> LiveScore::on_skeleton(const RecordingInfo& 
   return shown;
 }
 
-/// How the stream is signed, and how a recording of another skeleton is shown: once each.
-void LiveScore::report_manner(const Entry& entry) {
+/// Reports how the stream is signed, and how a recording with another skeleton is retargeted, once each.
+void LiveScore::report_setup(const Entry& entry) {
   const auto report = [&](const std::vector<Notice>& notices) {
     for (const Notice& notice : notices) {
       events_.push_back({.kind = PlayerEvent::Kind::notice,
@@ -77,17 +77,17 @@ void LiveScore::rest_in(const std::string& recording) {
   state_ = State::resting;
 }
 
-/// Joins the next place to what is there, and the places after it that stay together with it.
+/// Joins the next place to the tail, with the following places that stay together with it.
 void LiveScore::sign_next() {
-  if (queue_.begins_anew()) {
+  if (queue_.restarts()) {
     last_round_ = std::exchange(entries_, {});
     last_sign_.signs.reset();
   }
-  const std::size_t first = queue_.take_next();  // whatever happens, it is not tried again
+  const std::size_t first = queue_.take_next();  // not retried, even after an error
   const PlaceQueue::Decision& decision = queue_.decide(first);
   if (state_ == State::at_core && last_sign_.signs && chain_.back() == last_sign_.clip && !entries_.empty() &&
       queue_.follows(*last_sign_.signs, first)) {
-    go_on_as_captured(first);
+    continue_as_captured(first);
     return;
   }
   auto clip = std::make_shared<LiveClip>();
@@ -109,7 +109,7 @@ void LiveScore::sign_next() {
   clip->key = key_of(clip->captured);
 
   Entry entry{.clip = clip, .first = first, .last = last};
-  if (state_ == State::nothing && options_.idle == Idle::living_rest) {  // out of a rest that nobody saw
+  if (state_ == State::nothing && options_.idle == Idle::living_rest) {  // starting from an invisible rest
     chain_.begin(place_rest(*setup_));
     tail().placed.core_frames = history();
     tail().placed.core = end() - history();
@@ -132,16 +132,16 @@ void LiveScore::sign_next() {
     chain_.add(clip);
   }
   timeline_.append({end(), clip->placed.core_end()}, clip);
-  queue_.go_on_at(last + 1);
+  queue_.continue_at(last + 1);
   entries_.push_back(std::move(entry));
   last_sign_ = {.clip = std::move(clip), .signs = std::move(signs)};
   state_ = State::at_core;
-  report_manner(entries_.back());
+  report_setup(entries_.back());
   report_places(entries_.back(), 0);
 }
 
-/// The place goes on from the tail in its recording: the tail becomes longer.
-void LiveScore::go_on_as_captured(std::size_t place) {
+/// The place follows the tail in its recording, so the tail is extended.
+void LiveScore::continue_as_captured(std::size_t place) {
   const Candidate& candidate = queue_.chosen(place);
   extend_with(*last_sign_.signs, candidate);
   LiveClip& clip = tail();
@@ -154,7 +154,7 @@ void LiveScore::go_on_as_captured(std::size_t place) {
   clip.placed.core = before.core;
   clip.placed.before = before.before;
   clip.placed.standing = before.standing;
-  clip.key.clear();  // it stands where its beginning alone was brought
+  clip.key.clear();  // its standing was measured from its beginning only
   timeline_.append({end(), clip.placed.core_end()}, chain_.back());
   entries_.back().last = place;
   Entry now = entries_.back();
@@ -162,7 +162,7 @@ void LiveScore::go_on_as_captured(std::size_t place) {
   report_places(now, 0);
 }
 
-/// Events of the places whose strokes begin at or after a frame.
+/// Adds events for the places whose strokes begin at or after `from`.
 void LiveScore::report_places(const Entry& entry, std::int64_t from) {
   const PlacedClip& placed = entry.clip->placed;
   for (std::size_t place = entry.first; place <= entry.last; ++place) {

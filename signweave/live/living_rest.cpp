@@ -17,62 +17,62 @@ using Eigen::Matrix3f;
 using Eigen::Quaternionf;
 using Eigen::Vector3f;
 
-// Breaths a second, and how their pace and depth change over minutes: 12.5 to 15.5 in each minute. (ours)
+// Breaths a second, and the variation of rate and depth over minutes: 12.5 to 15.5 breaths a minute. (ours)
 constexpr double kBreaths = 14.0 / 60;
-constexpr double kInhale = 0.4;  // of a breath; then out, then a pause
+constexpr double kInhale = 0.4;  // share of a breath; then exhaling and a pause
 constexpr double kPause = 0.04;
-// How far, at the end of breathing in. (ours)
+// Amplitudes at full inhalation. (ours)
 constexpr float kSpinePitch = 0.25f * kDegree;
 constexpr float kChestPitch = 0.7f * kDegree;
 constexpr float kLift = 1.0f * kDegree;  // of the clavicles
 // Swaying: pitch, turn, roll. (ours)
 const Vector3f kTrunkSway(0.22f * kDegree, 0.15f * kDegree, 0.22f * kDegree);
 const Vector3f kHeadDrift(0.35f * kDegree, 0.7f * kDegree, 0.3f * kDegree);
-constexpr float kSpineShare = 0.6f;  // of the trunk's swaying
-// Blinks: one in each slot, at a moment of its middle, so that they are 2 to 6 s apart.
+constexpr float kSpineShare = 0.6f;  // share of the trunk's sway
+// Blinks: one in each slot, within its middle half, so that they are 2 to 6 s apart.
 constexpr double kSlot = 4.0;
 constexpr double kSlotMargin = 1.0;
 constexpr double kClosing = 0.08;
 constexpr double kOpening = 0.15;
 
-/// 0 to 1 with a level beginning and end, velocity and acceleration alike.
+/// From 0 to 1 with zero velocity and acceleration at both ends.
 double smoother_step(double t) {
   t = std::clamp(t, 0.0, 1.0);
   return t * t * t * (10 - t * (15 - 6 * t));
 }
 
-/// Bits that look random. (Steele, Lea and Flood 2014, SplitMix)
+/// Pseudo-random bits (Steele, Lea and Flood 2014, SplitMix).
 std::uint64_t scrambled(std::uint64_t bits) {
   bits += 0x9e3779b97f4a7c15u;
   bits = (bits ^ (bits >> 30)) * 0xbf58476d1ce4e5b9u;
   bits = (bits ^ (bits >> 27)) * 0x94d049bb133111ebu;
   return bits ^ (bits >> 31);
 }
-/// In [0, 1).
+/// A number in [0, 1).
 double share_of(std::uint64_t bits) {
   return static_cast<double>(scrambled(bits) >> 11) * 0x1p-53;
 }
 
-/// sin of so many turns.
+/// The sine of an angle in turns.
 double wave(double turns) {
   return std::sin(2 * std::numbers::pi * (turns - std::floor(turns)));
 }
 
-/// A breath that has come so far, in [0, 1): in, out again, slower towards the end, and a pause.
+/// Depth of a breath at phase [0, 1): inhale, exhale slowing towards the end, pause.
 double breath_at(double part) {
   if (part < kInhale) return smoother_step(part / kInhale);
   const double out = std::min(1.0, (part - kInhale) / (1 - kPause - kInhale));
   return 1 - smoother_step(out * (1.5 - 0.5 * out));
 }
 
-/// The rotation about a small vector (radians), unit.
+/// The unit quaternion of a small rotation vector (radians).
 Quaternionf small_turn(const Vector3f& vector) {
   const float square = vector.squaredNorm() / 4;
   const Vector3f sine = (0.5f - square / 12) * vector;
   return {std::sqrt(1 - sine.squaredNorm()), sine.x(), sine.y(), sine.z()};
 }
 
-/// x to the signer's left, y up along the trunk, z forward, in model space; none where left and right are not told.
+/// x to the signer's left, y up along the trunk, z forward, in model space; none if left and right are unknown.
 std::optional<Matrix3f> signer_axes(const RigMap& rig, const ModelPose& pose) {
   constexpr float kLeast = 1e-4f;  // metres
   Vector3f left = Vector3f::Zero();
@@ -106,7 +106,7 @@ bool lies_above(const Skeleton& skeleton, JointIndex above, JointIndex joint) {
   return joint == above;
 }
 
-/// Whether a joint carries what stands: it must not turn.
+/// True if a joint is an ancestor of the legs: it must not rotate.
 bool carries_legs(const Skeleton& skeleton, const RigMap& rig, JointIndex joint) {
   for (const Part part : {Part::pelvis, Part::left_thigh, Part::right_thigh, Part::left_foot, Part::right_foot}) {
     if (rig.has(part) && lies_above(skeleton, joint, rig[part].joint)) return true;
@@ -146,7 +146,7 @@ void LivingRest::add_moved(const RigMap& rig, const ModelPose& pose) {
   const auto add = [&](Role role, Part part) {
     if (!rig.has(part) || carries_legs(*skeleton_, rig, rig[part].joint)) return;
     Moved moved{.role = role, .joint = rig[part].joint, .lift = Vector3f::Zero(), .to_parent = *axes};
-    // Spine and chest, or neck and head, may be one joint: the later part says what it does.
+    // Spine and chest, or neck and head, may be the same joint: the later part determines its role.
     const auto end = moved_.begin() + static_cast<std::ptrdiff_t>(moved_count_);
     const auto same = std::find_if(moved_.begin(), end, [&](const Moved& other) { return other.joint == moved.joint; });
     if (same == end) ++moved_count_;
@@ -187,12 +187,12 @@ LivingRest::Life LivingRest::life_at(std::int64_t frame) const noexcept {
       static_cast<double>(frame) * static_cast<double>(rate_.denominator) / static_cast<double>(rate_.numerator);
   const double ease = smoother_step(seconds / kRestEase.count());
   const auto size = static_cast<float>(ease) * options_.amount;
-  // At 0 the first breath begins.
+  // The first breath begins at 0.
   const double breaths =
       kBreaths * seconds + 0.12 * wave(seconds / 47.3) + 0.09 * (wave(seconds / 83.9 + phases_[7]) - wave(phases_[7]));
   const double depth = 0.85 + 0.15 * wave(seconds / 31.7 + phases_[6]);
   const auto breath = static_cast<float>(depth * breath_at(breaths - std::floor(breaths)));
-  // Two waves each, whose periods have no common multiple worth speaking of.
+  // Two waves each, whose periods have no small common multiple.
   const auto slow = [&](std::size_t i, double first, double second) {
     return static_cast<float>(0.6 * wave(seconds / first + phases_[i]) + 0.4 * wave(seconds / second - phases_[i]));
   };
@@ -200,7 +200,7 @@ LivingRest::Life LivingRest::life_at(std::int64_t frame) const noexcept {
       size * kTrunkSway.cwiseProduct(Vector3f(slow(0, 7.31, 12.9), slow(1, 13.7, 23.3), slow(2, 9.17, 16.3)));
   const Vector3f drift =
       size * kHeadDrift.cwiseProduct(Vector3f(slow(3, 6.13, 10.7), slow(4, 8.59, 19.1), slow(5, 11.3, 17.9)));
-  const Vector3f in = -size * breath * Vector3f::UnitX();  // the chest rises where the trunk leans back
+  const Vector3f in = -size * breath * Vector3f::UnitX();  // the chest rises as the trunk leans back
   Life life{.breath = size * breath, .turns = {}};
   life.turns[0] = kSpineShare * sway + kSpinePitch * in;
   life.turns[1] = sway + kChestPitch * in;
@@ -210,7 +210,7 @@ LivingRest::Life LivingRest::life_at(std::int64_t frame) const noexcept {
 }
 
 void LivingRest::move(const Life& life, std::span<Quaternionf> rotations) const noexcept {
-  std::array<Quaternionf, kMostMoved> turns;  // of each moved joint in model space, signer's axes
+  std::array<Quaternionf, kMostMoved> turns;  // rotation of each moved joint in model space, signer's axes
   for (std::size_t i = 0; i < moved_count_; ++i) {
     const Moved& moved = moved_[i];
     if (moved.role == Role::upper_arm) {
@@ -248,7 +248,7 @@ float LivingRest::lids_at(std::int64_t frame) const noexcept {
   const double slot = std::floor(static_cast<double>(frame) * frame_time / kSlot);
   const double share = share_of(scrambled(options_.seed) ^ static_cast<std::uint64_t>(slot));
   const double moment = slot * kSlot + kSlotMargin + (kSlot - 2 * kSlotMargin) * share;
-  // Shut at a whole frame, so that a low rate has it, too.
+  // Closed at a whole frame, so that low frame rates show it too.
   const auto shut = static_cast<std::int64_t>(std::llround(moment / frame_time));
   const double away = static_cast<double>(frame - shut) * frame_time;
   return static_cast<float>(1 - smoother_step(away < 0 ? -away / kClosing : away / kOpening));

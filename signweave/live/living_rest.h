@@ -17,22 +17,23 @@
 namespace signweave {
 
 struct LivingRestOptions {
-  /// Which moments of blinking, which ways of swaying: two signers with two seeds do not move as one.
+  /// Determines the times of blinks and the phases of swaying, so that two signers with different seeds do not move in
+  /// sync.
   std::uint64_t seed = 0;
-  /// How much trunk, shoulders and head move; 0 for not at all, up to 10 to see it well.
+  /// Amount of movement of trunk, shoulders and head, from 0 (none) to 10 (clearly visible).
   float amount = 1;
 };
 
-/// A signer at rest who breathes, sways a little and blinks, without end. Each frame is a function of its number alone:
-/// the same bits whenever it is asked for. Frame 0 is the rest pose itself; life comes in over kRestEase. Trunk,
-/// shoulders and head turn about the signer's own axes, told from the rig and the rest pose; legs stand, arms keep how
-/// they hang, the head keeps where it looks but for a drift of about a degree. Joints that the rig map lacks keep
-/// still, and so does everything where it does not tell left from right. Reading allocates nothing and throws nothing.
-/// Several threads may read at once.
+/// A signer at rest who breathes, sways slightly and blinks, indefinitely. Each frame is a function of its number
+/// alone, bit for bit. Frame 0 is the rest pose; movement fades in over kRestEase. Trunk, shoulders and head rotate
+/// about the signer's axes, derived from the rig and the rest pose. Legs stand still, arms keep hanging as they are,
+/// and the head keeps its gaze except for a drift of about a degree. Joints missing from the rig map do not move; if
+/// the map does not distinguish left and right, nothing moves. Reading does not allocate or throw. Several threads may
+/// read concurrently.
 class LivingRest final : public MotionSource {
  public:
-  /// `rest` and `tracks` (the names of its values) must be of that skeleton and the map too. The tracks eyeBlinkLeft
-  /// and eyeBlinkRight blink, every other keeps its value. Throws Error{bad_input} where counts differ.
+  /// `rig`, `rest` and `tracks` (the names of its values) must match the skeleton. The tracks eyeBlinkLeft and
+  /// eyeBlinkRight blink, all others are constant. Throws Error{bad_input} if counts differ.
   LivingRest(std::shared_ptr<const Skeleton> skeleton, FrameRate rate, const RigMap& rig, RestPose rest,
              std::vector<std::string> tracks, LivingRestOptions options = {});
 
@@ -47,20 +48,19 @@ class LivingRest final : public MotionSource {
   static constexpr Seconds kRestEase{2.0};
 
  private:
-  /// How a joint turns beside what it has at rest, in the signer's axes.
+  /// How a joint rotates relative to its rest rotation, in the signer's axes.
   enum class Role : std::uint8_t { spine, chest, neck, head, clavicle, upper_arm };
   static constexpr std::size_t kMostMoved = 8;
   struct Moved {
     Role role = Role::spine;
     JointIndex joint = kNoJoint;
-    int above = -1;  ///< the nearest moved joint above it, of moved_; below 0: none
-    Eigen::Vector3f lift =
-        Eigen::Vector3f::Zero();  ///< of a clavicle: the axis about which it rises, signer's axes, unit or zero
+    int above = -1;                                  ///< index in moved_ of the nearest moved ancestor; negative: none
+    Eigen::Vector3f lift = Eigen::Vector3f::Zero();  ///< axis about which a clavicle rises, signer's axes; or zero
     Eigen::Matrix3f to_parent = Eigen::Matrix3f::Identity();  ///< the signer's axes in the space of the joint's parent
   };
-  /// All that moves, at one moment; radians, signer's axes.
+  /// All movements at one frame; radians, signer's axes.
   struct Life {
-    float breath = 0;                      ///< 0 breathed out to 1 breathed in, times the amount
+    float breath = 0;                      ///< from 0 (exhaled) to 1 (inhaled), times the amount
     std::array<Eigen::Vector3f, 4> turns;  ///< [Role] to `head`
   };
 
@@ -73,9 +73,9 @@ class LivingRest final : public MotionSource {
   FrameRate rate_;
   RestPose rest_;
   std::vector<std::string> tracks_;
-  std::array<std::size_t, 2> lids_;  ///< of tracks_; as many as there are tracks: none
+  std::array<std::size_t, 2> lids_;  ///< indices in tracks_; tracks_.size(): none
   LivingRestOptions options_;
-  std::array<double, 8> phases_{};  ///< turns: where each slow wave begins
+  std::array<double, 8> phases_{};  ///< in turns: initial phase of each slow wave
   std::array<Moved, kMostMoved> moved_;
   std::size_t moved_count_ = 0;
 };

@@ -27,13 +27,13 @@ JointIndex joint(const Motion& motion, std::string_view name) {
   return motion.skeleton().find(name).value_or(kNoJoint);
 }
 
-/// Lets the arms hang from where rig_body holds them out: `degrees` below the horizontal.
+/// Lowers the arms, which rig_body holds out, to `degrees` below the horizontal.
 void lower_arms(const Motion& motion, double degrees, MutablePoseView pose) {
   pose.rotations[static_cast<std::size_t>(joint(motion, "LeftArm"))] = about(Vector3f::UnitZ(), -degrees);
   pose.rotations[static_cast<std::size_t>(joint(motion, "RightArm"))] = about(Vector3f::UnitZ(), degrees);
 }
 
-/// Someone who stands with hanging arms, one frame.
+/// One frame of a person standing with hanging arms.
 Motion standing(const RigNaming& naming = {}) {
   Motion motion = rig_body(naming);
   const bool usual = joint(motion, "LeftArm") != kNoJoint && naming.left == "Left";
@@ -41,20 +41,20 @@ Motion standing(const RigNaming& naming = {}) {
   return motion;
 }
 
-/// Life of the first frame of a motion.
+/// A living rest from the first frame of a motion.
 LivingRest living(const Motion& motion, FrameRate rate = {60, 1}, LivingRestOptions options = {}) {
   return LivingRest(motion.shared_skeleton(), rate, map_rig(motion), {.pose = Pose(std::as_const(motion).pose(0))}, {},
                     options);
 }
 
-/// Frames of a source, as a motion without tracks.
+/// Frames of a source as a motion without tracks.
 Motion frames_of(const MotionSource& source, FrameRange range) {
   Motion motion(source.skeleton(), source.rate(), range.size());
   source.read(range, motion.poses({0, range.size()}));
   return motion;
 }
 
-/// Calls `see` for each frame of so many seconds.
+/// Calls `see` for each frame of `seconds` seconds.
 void watch(const LivingRest& rest, double seconds, const std::function<void(double, const ModelPose&)>& see) {
   const auto frames = static_cast<std::int64_t>(seconds * rest.rate().hertz());
   ModelPose model;
@@ -67,7 +67,7 @@ void watch(const LivingRest& rest, double seconds, const std::function<void(doub
   }
 }
 
-/// What the lids do over so many frames.
+/// The eyelid values of `frames` frames.
 std::vector<float> lids(const LivingRest& rest, std::int64_t frames, std::size_t track = 0) {
   std::vector<float> values(static_cast<std::size_t>(frames));
   std::vector<std::span<float>> out(rest.tracks().size());
@@ -83,7 +83,7 @@ LivingRest with_face(FrameRate rate = {60, 1}, std::vector<float> open = {0, 0, 
                     {"eyeBlinkLeft", "eyeBlinkRight", "jawOpen"});
 }
 
-TEST(LivingRest, HasTheSameBitsWheneverAsked) {
+TEST(LivingRest, IsDeterministic) {
   const Motion motion = standing();
   const LivingRest rest = living(motion);
   const Motion whole = frames_of(rest, {5'000, 6'000});
@@ -126,7 +126,7 @@ TEST(LivingRest, ReadingAllocatesNothing) {
   EXPECT_EQ(allocations_in([&] { rest.read_tracks({1'000, 1'064}, out); }), 0u);
 }
 
-TEST(LivingRest, NoJointTurnsFast) {
+TEST(LivingRest, NoJointRotatesFast) {
   constexpr double kFastest = 3;  // degrees a second
   for (const std::int64_t hertz : {30, 60, 120}) {
     const LivingRest rest = living(standing(), {hertz, 1});
@@ -143,7 +143,7 @@ TEST(LivingRest, NoJointTurnsFast) {
   }
 }
 
-TEST(LivingRest, HandsAndFeetAreQuietAndTheGazeStays) {
+TEST(LivingRest, HandsAndFeetAreStillAndTheGazeIsSteady) {
   const Motion motion = standing();
   const RigMap rig = map_rig(motion);
   ASSERT_TRUE(rig.has(Part::head) && rig.has(Part::left_foot));
@@ -170,7 +170,7 @@ TEST(LivingRest, HandsAndFeetAreQuietAndTheGazeStays) {
     EXPECT_GT(hands, 0.001f);
     EXPECT_LT(static_cast<double>(head), 2 * kDegree);
     EXPECT_GT(static_cast<double>(head), 0.3 * kDegree);
-    EXPECT_LT(static_cast<double>(hang), 0.1 * kDegree);  // arms hang as they hung
+    EXPECT_LT(static_cast<double>(hang), 0.1 * kDegree);  // arms keep hanging
     EXPECT_EQ(feet, 0);
   }
 }
@@ -208,7 +208,7 @@ Breaths breaths_of(const LivingRest& rest, const RigMap& rig, int minutes) {
   return breaths;
 }
 
-TEST(LivingRest, BreathesTwelveToSixteenTimesAMinuteInFasterThanOut) {
+TEST(LivingRest, BreathesTwelveToSixteenTimesAMinuteAndInhalesFaster) {
   const Motion motion = standing();
   for (const std::uint64_t seed : {0u, 7u}) {
     const Breaths breaths = breaths_of(living(motion, {30, 1}, {.seed = seed}), map_rig(motion), 10);
@@ -223,7 +223,7 @@ TEST(LivingRest, BreathesTwelveToSixteenTimesAMinuteInFasterThanOut) {
   }
 }
 
-TEST(LivingRest, BlinksNowAndThenBothEyesTogetherAndShutAtThePeak) {
+TEST(LivingRest, BlinksIrregularlyWithBothEyesFullyClosed) {
   for (const std::int64_t hertz : {25, 60, 120}) {
     const LivingRest rest = with_face({hertz, 1}, {0.1f, 0.2f, 0.3f});
     const std::int64_t frames = 600 * hertz;
@@ -252,18 +252,18 @@ TEST(LivingRest, BlinksNowAndThenBothEyesTogetherAndShutAtThePeak) {
                 0.1f);
     }
     EXPECT_GE(shortest, 1.9);
-    EXPECT_LT(shortest, 3);  // they are irregular
+    EXPECT_LT(shortest, 3);  // the intervals are irregular
     EXPECT_LE(longest, 6.1);
     EXPECT_GT(longest, 5);
     const double each = static_cast<double>(moving) / static_cast<double>(shut.size()) / static_cast<double>(hertz);
     EXPECT_NEAR(each, 0.23, 1.0 / static_cast<double>(hertz));
-    // Other tracks keep their value.
+    // Other tracks are constant.
     const std::vector<float> jaw = lids(rest, 1'000, 2);
     EXPECT_EQ(std::ranges::count(jaw, 0.3f), 1'000);
   }
 }
 
-TEST(LivingRest, ASeedMakesAnotherSigner) {
+TEST(LivingRest, ASeedChangesTheMovement) {
   const Motion motion = standing();
   const Motion one = frames_of(living(motion, {60, 1}, {.seed = 1}), {0, 600});
   const Motion two = frames_of(living(motion, {60, 1}, {.seed = 2}), {0, 600});
@@ -276,7 +276,7 @@ TEST(LivingRest, ASeedMakesAnotherSigner) {
   }
 }
 
-/// The same body whose joints' own axes stand otherwise.
+/// The same body with other joint axes.
 Motion with_other_axes(const Motion& motion) {
   std::vector<Quaternionf> axes;  // [joint] of this motion in the space of the other's
   std::vector<Joint> joints(motion.skeleton().joints().begin(), motion.skeleton().joints().end());
@@ -302,7 +302,7 @@ Motion with_other_axes(const Motion& motion) {
   return other;
 }
 
-/// Two motions put every joint in the same place, the second's turned by `turn` about the origin.
+/// Checks that two motions have the same joint positions, with the second rotated by `turn` about the origin.
 void expect_same_places(const Motion& one, const Motion& two, const Quaternionf& turn = Quaternionf::Identity()) {
   float farthest = 0;
   for (std::int64_t frame = 0; frame < one.frame_count(); ++frame) {
@@ -315,18 +315,18 @@ void expect_same_places(const Motion& one, const Motion& two, const Quaternionf&
   EXPECT_LT(farthest, 2e-5f);
 }
 
-TEST(LivingRest, BreathesTheSameWhateverTheRigsAxes) {
+TEST(LivingRest, DoesNotDependOnTheAxesOfTheRig) {
   const Motion motion = standing();
   const Motion usual = frames_of(living(motion), {0, 600});
   const Motion other = with_other_axes(motion);
   expect_same_places(usual, frames_of(living(other), {0, 600}));
 
-  // Names that say left where the body has right.
+  // Names that swap left and right.
   const Motion swapped = rig_body({.left = "Right", .right = "Left"});
   ASSERT_TRUE(map_rig(swapped).sides_swapped);
   expect_same_places(frames_of(living(rig_body({})), {0, 600}), frames_of(living(swapped), {0, 600}));
 
-  // Someone who faces elsewhere.
+  // A person facing another direction.
   Motion turned = standing();
   const Quaternionf turn = about(Vector3f::UnitY(), 130);
   turned.pose(0).rotations[0] = turn;
@@ -334,7 +334,7 @@ TEST(LivingRest, BreathesTheSameWhateverTheRigsAxes) {
   expect_same_places(usual, frames_of(living(turned), {0, 600}), turn);
 }
 
-TEST(LivingRest, BreathesWithWhatTheRigHas) {
+TEST(LivingRest, BreathesWithTheJointsThatTheRigHas) {
   for (const RigNaming& naming : {RigNaming{.spine = ""}, RigNaming{.neck = ""}, RigNaming{.collar = ""}}) {
     const Motion motion = standing(naming);
     const LivingRest rest = living(motion, {30, 1}, {.amount = 5});
@@ -354,7 +354,7 @@ TEST(LivingRest, BreathesWithWhatTheRigHas) {
   }
 }
 
-TEST(LivingRest, NeverTurnsWhatCarriesTheLegs) {
+TEST(LivingRest, NeverRotatesAncestorsOfTheLegs) {
   const Motion motion = standing();
   RigMap rig = map_rig(motion);
   rig[Part::spine] = rig[Part::pelvis];
@@ -365,7 +365,7 @@ TEST(LivingRest, NeverTurnsWhatCarriesTheLegs) {
   }
 }
 
-TEST(LivingRest, StandsStillWhereNothingIsKnownOrNoLeftFromRight) {
+TEST(LivingRest, StandsStillIfTheRigIsUnknownOrSidesAreAmbiguous) {
   for (const std::vector<std::string>& names :
        {std::vector<std::string>{"a", "b", "c", "d"}, std::vector<std::string>{"Hips", "Spine", "Neck", "Head"}}) {
     std::vector<Joint> joints;
@@ -384,7 +384,7 @@ TEST(LivingRest, StandsStillWhereNothingIsKnownOrNoLeftFromRight) {
   }
 }
 
-TEST(LivingRest, RefusesARestPoseOfAnotherSkeleton) {
+TEST(LivingRest, RejectsARestPoseOfAnotherSkeleton) {
   const Motion motion = standing();
   EXPECT_THROW(LivingRest(motion.shared_skeleton(), {60, 1}, {}, {}, {}), Error);
   EXPECT_THROW(LivingRest(motion.shared_skeleton(), {60, 1}, {}, {.pose = Pose(motion.skeleton())}, {"jawOpen"}),

@@ -12,25 +12,25 @@
 
 namespace signweave {
 
-/// Recordings of a database as they are read from now and then for a long time: opened when they are read, and let go
-/// between, so that a player who waits holds nothing of the database. Belongs to one thread.
+/// Recordings of a database that are read occasionally over a long time. They are opened on reading and closed in
+/// between, so that a waiting player holds no database resources. Used by one thread.
 class OpenRecordings {
  public:
   explicit OpenRecordings(const Database& database) : database_(database) {}
 
   const Snapshot& snapshot();
-  /// The motion of a recording. Throws Error{conflict} where it was removed since, or replaced by one of another
-  /// length or shape; one that is only stored in another way serves.
+  /// The motion of a recording. Throws Error{conflict} if it was removed since, or replaced by one of another length or
+  /// shape; one that was merely stored again is accepted.
   const MotionSource& motion(const std::string& recording, const motion_db::StoredMotion& stored);
   void close() noexcept;
 
  private:
   const Database& database_;
   std::optional<Snapshot> snapshot_;
-  std::map<std::uint64_t, std::unique_ptr<MotionSource>> motions_;  ///< by the generation asked for
+  std::map<std::uint64_t, std::unique_ptr<MotionSource>> motions_;  ///< by the requested generation
 };
 
-/// One of them, as a source that may be kept.
+/// One of these recordings as a long-lived source.
 class RecordingSource final : public MotionSource {
  public:
   /// `open` must outlive it.

@@ -45,7 +45,7 @@ void PlaceQueue::add(const Utterance& utterance) {
   decisions_.resize(places_.size());
 }
 
-/// An utterance that goes on for hours does not fill the memory.
+/// Bounds the memory of an utterance that lasts for hours.
 std::size_t PlaceQueue::forget() noexcept {
   if (loop_ || next_ < 2 * kKeptPlaces) return 0;
   const std::size_t count = next_ - kKeptPlaces;
@@ -80,7 +80,7 @@ const PlaceQueue::Decision& PlaceQueue::decide(std::size_t place) {
   for (std::size_t i = place + 1; i <= last; ++i) {
     try {
       choices.push_back({*base_.candidates(contents, places_[i]), places_[i].pause_before});
-    } catch (const Error&) {  // told when its time comes
+    } catch (const Error&) {  // reported when the place is due
       break;
     }
   }
@@ -92,7 +92,7 @@ const PlaceQueue::Decision& PlaceQueue::decide(std::size_t place) {
   return *decision;
 }
 
-/// True where what a place was decided by cannot become more.
+/// True if no further context can improve the decision of a place.
 bool PlaceQueue::decided_well(std::size_t place) const noexcept {
   return place + options_.look_ahead < places_.size();
 }
@@ -109,7 +109,7 @@ bool PlaceQueue::will_follow(const Candidate& before, std::size_t place) {
   try {
     decide(place);
     if (follows(before, place)) return true;
-  } catch (const Error&) {  // told when its time comes
+  } catch (const Error&) {  // reported when the place is due
     return false;
   }
   if (!was_decided && !decided_well(place)) decisions_[place].reset();

@@ -9,58 +9,58 @@
 #include "signweave/live/player.h"
 #include "signweave/live/shared_signing_cache.h"
 
-/// Inside this module only.
+/// Internal to this module.
 namespace signweave {
 
-/// What a player is to sign, and which token fills each place of it. Places count from the first one that is kept.
-/// Belongs to one thread.
+/// The places that a player is to sign, and the token chosen for each. Places are numbered from the first stored one.
+/// Used by one thread.
 class PlaceQueue {
  public:
-  /// All of them must outlive it.
+  /// All arguments must outlive it.
   PlaceQueue(SharedSigningCache& base, OpenRecordings& open, const PlayerOptions& options);
 
-  /// What fills a place once it is decided.
+  /// The choice for a place.
   struct Decision {
     std::shared_ptr<const Contents> contents;
     Candidate candidate;
   };
 
-  /// Throws what `candidates_for` throws for one of the places, Error{bad_input} where a pause is longer than
-  /// kLongestPause, or where there would be more than kMostPlaces with those that wait already and are to stay.
+  /// Throws what `candidates_for` throws for one of the places; Error{bad_input} if a pause is longer than
+  /// kLongestPause, or if there would be more than kMostPlaces, including the waiting ones if `after_those_waiting`.
   void check(const Utterance& utterance, bool after_those_waiting) const;
-  /// These places, which are checked, instead of all others.
+  /// Replaces all places by these, which must be checked.
   void replace(const Utterance& utterance);
-  /// These after the others.
+  /// Appends these places, which must be checked.
   void add(const Utterance& utterance);
   void set_loop(bool loop) noexcept { loop_ = loop; }
-  /// Leaves out places that are over, where there are many: how many. All others count from so much less then.
+  /// Drops finished places if there are many. Returns how many; the numbers of all others decrease by it.
   std::size_t forget() noexcept;
   std::size_t forgotten() const noexcept { return forgotten_; }
 
-  bool has_next() const noexcept { return next_ < places_.size() || begins_anew(); }
-  /// True where a loop has come round.
-  bool begins_anew() const noexcept { return loop_ && next_ >= places_.size() && !places_.empty(); }
+  bool has_next() const noexcept { return next_ < places_.size() || restarts(); }
+  /// True if a loop starts its next round.
+  bool restarts() const noexcept { return loop_ && next_ >= places_.size() && !places_.empty(); }
   bool empty() const noexcept { return places_.empty(); }
-  /// The place that is signed next, which is not given again, whatever happens.
+  /// Takes the place to sign next. It is not returned again, even after an error.
   std::size_t take_next() noexcept;
-  /// Goes on with that place.
-  void go_on_at(std::size_t place) noexcept { next_ = place; }
+  /// Continues with this place.
+  void continue_at(std::size_t place) noexcept { next_ = place; }
 
   Milliseconds pause_before(std::size_t place) const noexcept { return places_[place].pause_before; }
-  /// Which token fills a place: chosen with the one before it, and with as many after it as are known and looked at.
-  /// Throws where none can.
+  /// Chooses the token of a place, given the one before it and up to `look_ahead` known places after it. Throws if
+  /// there is none.
   const Decision& decide(std::size_t place);
   const Candidate& chosen(std::size_t place) const noexcept { return decisions_[place]->candidate; }
-  /// True where a decided place goes on from the signs of the one before it in their recording.
+  /// True if the token of a decided place directly follows the signs of `before` in their recording.
   bool follows(const Candidate& before, std::size_t place) const;
-  /// The same of a place that need not be decided yet.
+  /// The same for a place that need not be decided yet.
   bool will_follow(const Candidate& before, std::size_t place);
 
   static constexpr Milliseconds kLongestPause{60'000};
-  /// As many places may wait; and as many that are over are kept, for `seek`.
+  /// Maximum number of waiting places, and number of finished places kept for `seek`.
   static constexpr std::size_t kMostPlaces = 10'000;
   static constexpr std::size_t kKeptPlaces = 1'000;
-  /// Pieces of recordings in one utterance; each is looked up by itself.
+  /// Maximum number of pieces of recordings in one utterance; each is looked up separately.
   static constexpr std::size_t kMostPieces = 256;
 
  private:
@@ -71,9 +71,9 @@ class PlaceQueue {
   const PlayerOptions& options_;
   bool loop_;
   std::vector<Place> places_;
-  std::vector<std::unique_ptr<const Decision>> decisions_;  ///< [place]; null: not yet
-  std::size_t next_ = 0;                                    ///< the place that is signed next
-  std::size_t forgotten_ = 0;                               ///< places that came before those, since the last `replace`
+  std::vector<std::unique_ptr<const Decision>> decisions_;  ///< [place]; null: undecided
+  std::size_t next_ = 0;                                    ///< the place to sign next
+  std::size_t forgotten_ = 0;                               ///< places dropped since the last `replace`
 };
 
 }  // namespace signweave

@@ -31,40 +31,40 @@ PlayerOptions checked(PlayerOptions options) {
 struct Player::State {
   State(SharedSigningCache& base, const PlayerOptions& options) : growing(base, options) {}
 
-  // What each frame needs comes first, and lies together.
+  // Members used for each frame come first, for locality.
   FrameRing ring;
   std::int64_t next = 0;    ///< frame of the timeline that is shown next
-  double part = 0;          ///< of the way to the frame after it, in [0, 1)
-  double tempo = 1;         ///< frames of the timeline for one that is taken
+  double part = 0;          ///< position between it and the following frame, in [0, 1)
+  double tempo = 1;         ///< frames of the timeline per taken frame
   std::uint64_t taken = 0;  ///< frames of the stream
   bool paused = false;
   LiveScore growing;
 
-  /// The ring, once it is known what a frame is.
+  /// Allocates the ring, once the shape of frames is known.
   void open_ring() {
     if (ring.capacity() > 1 || growing.header() == nullptr) return;
     ring = FrameRing(growing.header()->shape(), kMostReady * 2 + static_cast<std::size_t>(growing.history()) + 2);
   }
-  /// Frames that can be taken with what the ring has.
+  /// Number of frames that can be taken from the ring.
   std::size_t ready() const noexcept {
     const auto there = static_cast<double>(ring.end() - next) - part;
     if (there <= 0) return 0;
-    // A frame between two needs both.
+    // An interpolated frame needs both neighbours.
     const double last = part == 0 && tempo == 1 ? there - 1 : there - 1 - 1e-9;
     return last < 0 ? (part == 0 ? 1 : 0) : static_cast<std::size_t>(last / tempo) + 1;
   }
-  /// Where the stream is: at the end also where the last frame was not a whole one.
+  /// The position of the stream: at the end even if the last frame was interpolated.
   std::int64_t position() const noexcept {
     return growing.ended() && next + 1 >= growing.end() && ready() == 0 ? growing.end() : next;
   }
-  /// What is left of the ring after the timeline was changed.
+  /// Truncates the ring after the timeline was changed.
   void changed() {
     ring.cut(std::min(ring.end(), growing.end()));
     if (ring.end() == next) part = 0;
   }
 };
 
-/// Lets go of the database, and of what was taken, however a call ends.
+/// Releases the database and the taken frames, however a call ends.
 struct Player::LetGo {
   State& state;
   ~LetGo() { state.growing.let_go(state.next); }
@@ -116,7 +116,7 @@ void Player::set_tempo(double tempo) {
     throw Error(ErrorCode::bad_input, fmt::format("a tempo of {} is outside {} to {}", tempo, kSlowest, kFastest));
   }
   state_->tempo = tempo;
-  // Whole frames are shown as they are again: the next one half a frame early or late.
+  // Returns to whole frames; the next one is up to half a frame early or late.
   if (tempo == 1 && state_->part > 0) {
     if (state_->part >= 0.5 && state_->next + 1 < state_->ring.end()) ++state_->next;
     state_->part = 0;
@@ -177,7 +177,7 @@ std::optional<FrameView> Player::next_in(MutableFrameView room) noexcept {
   const double whole = std::floor(to);
   state.next += static_cast<std::int64_t>(whole);
   state.part = state.tempo == 1 ? 0 : to - whole;
-  if (state.next > state.ring.end()) {  // fast over the end
+  if (state.next > state.ring.end()) {  // beyond the end at high tempo
     state.next = state.ring.end();
     state.part = 0;
   }

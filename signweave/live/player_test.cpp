@@ -1,4 +1,4 @@
-// The player beside others: threads, changes of the database, and its frame path. What it shows is tested on whole
+// Tests of concurrent players, changes of the database, and the frame path. What a player shows is tested on whole
 // databases in tests/player_test.cpp.
 #include "signweave/live/player.h"
 
@@ -16,7 +16,7 @@ namespace {
 using testing_database::recording_of;
 using testing_database::TestFolder;
 
-/// A database of three recordings that is open for changes.
+/// A database of three recordings, open for writing.
 struct Corpus {
   TestFolder folder;
   std::unique_ptr<Database> database;
@@ -30,7 +30,7 @@ struct Corpus {
   }
 };
 
-/// Frames into memory that is there.
+/// Takes frames into preallocated memory.
 struct Taker {
   Motion motion;
   std::vector<float> tracks;
@@ -62,8 +62,8 @@ TEST(PlayerFramePath, TakingFramesAllocatesNothing) {
   }
 }
 
-TEST(PlayerFramePath, AWaitingPlayerHoldsNothingOfTheDatabase) {
-  // As many as the default engine has places for readers, and twice as many.
+TEST(PlayerFramePath, AWaitingPlayerHoldsNoDatabaseResources) {
+  // As many players as the default engine allows readers, and twice as many.
   const Corpus corpus;
   SharedSigningCache base(*corpus.database);
   std::vector<std::unique_ptr<Player>> players;
@@ -74,9 +74,9 @@ TEST(PlayerFramePath, AWaitingPlayerHoldsNothingOfTheDatabase) {
   }
 }
 
-class PlayerBeside : public testing::TestWithParam<std::string> {};
+class ConcurrentPlayers : public testing::TestWithParam<std::string> {};
 
-TEST_P(PlayerBeside, ConcurrentPlayersGoOnWhileTheDatabaseIsChanged) {
+TEST_P(ConcurrentPlayers, ConcurrentPlayersContinueWhileTheDatabaseChanges) {
   const Corpus corpus(GetParam());
   SharedSigningCache base(*corpus.database);
   std::atomic<bool> stop = false;
@@ -88,7 +88,7 @@ TEST_P(PlayerBeside, ConcurrentPlayersGoOnWhileTheDatabaseIsChanged) {
       player.sign(parse_utterance("UN DEUX TROIS"));
       player.prepare(1);
       Taker taker(player);
-      // A slow machine takes many rounds before the changes beside them are over: what waits must not grow with them.
+      // A slow machine takes many rounds until the concurrent changes are done; the queue must not grow with them.
       constexpr int kMostRoundsThatAppend = 50'000;
       for (int round = 0; !stop; ++round) {
         try {
@@ -115,10 +115,10 @@ TEST_P(PlayerBeside, ConcurrentPlayersGoOnWhileTheDatabaseIsChanged) {
   for (std::thread& thread : threads) thread.join();
 }
 
-INSTANTIATE_TEST_SUITE_P(Engines, PlayerBeside, testing::ValuesIn(kv::engines()),
+INSTANTIATE_TEST_SUITE_P(Engines, ConcurrentPlayers, testing::ValuesIn(kv::engines()),
                          [](const auto& tested) { return tested.param; });
 
-TEST(PlayerBesideChanges, AClipThatIsGoneIsLeftOutAndTheRestIsSigned) {
+TEST(PlayerDuringChanges, ARemovedClipIsSkippedAndTheOthersAreSigned) {
   const Corpus corpus;
   SharedSigningCache base(*corpus.database);
   Player player(base, {.idle = Idle::end});
@@ -145,7 +145,7 @@ TEST(PlayerBesideChanges, AClipThatIsGoneIsLeftOutAndTheRestIsSigned) {
   EXPECT_TRUE(player.idle());
 }
 
-TEST(PlayerBesideChanges, GoesOnFromWhatWasShownWhereTheRestOfASignIsGone) {
+TEST(PlayerDuringChanges, ContinuesFromTheShownPoseIfTheRestOfASignIsGone) {
   for (const std::size_t shown : {5u, 40u, 120u}) {
     const Corpus corpus;
     SharedSigningCache base(*corpus.database);

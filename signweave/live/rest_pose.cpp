@@ -19,35 +19,35 @@ namespace {
 using Eigen::Quaternionf;
 using Eigen::Vector3f;
 
-// What makes a frame less of a rest. Hands as high as the shoulders are worth kHigh each, these here 1. (ours)
+// Penalties of a frame. Each hand at shoulder height costs kHigh; the following amounts cost 1. (ours)
 constexpr float kHigh = 3;
 constexpr float kSpeed = 0.5f;         // metres a second, of the fastest of hands, head and feet
-constexpr float kTilt = 20 * kDegree;  // of the trunk, and of the head from how it is mostly held
-constexpr float kStep = 0.15f;         // metres that one foot is higher than the other
-// What makes no difference.
+constexpr float kTilt = 20 * kDegree;  // of the trunk, and of the head from its usual orientation
+constexpr float kStep = 0.15f;         // metres by which one foot is higher than the other
+// Amounts that cost nothing.
 constexpr float kStill = 0.02f;
 constexpr float kUpright = 6 * kDegree;
 constexpr float kLevel = 0.03f;
-constexpr Seconds kLook{0.05};          // to each side of a frame, for its speed
+constexpr Seconds kLook{0.05};          // on each side of a frame, for its speed
 constexpr std::int64_t kMostLook = 20;  // frames
 
-/// How much that is worth, and no more than kMost: hands up high are worse than any haste.
+/// The penalty of a value, at most kMost: raised hands are worse than any speed.
 float beyond(float value, float free, float unit) {
   constexpr float kMost = 1.5f;
   return std::clamp((value - free) / unit, 0.0f, kMost);
 }
 
-/// One frame as far as resting goes.
+/// The features of one frame that determine how much it is at rest.
 struct Seen {
   std::int64_t frame = 0;
-  float height = 0;  ///< of the hands together: of each 0 at the hips and below, kHigh at the shoulders
+  float height = 0;  ///< sum over the hands: each 0 at the hips and below, kHigh at the shoulders
   float speed = 0;
   float tilt = 0;
   float step = 0;
   Quaternionf signer_from_head = Quaternionf::Identity();
 };
 
-/// Looks at single frames of a motion.
+/// Examines single frames of a motion.
 class RestLook {
  public:
   RestLook(const MotionSource& motion, const SignerModel& signer)
@@ -147,7 +147,7 @@ class RestLook {
   HandPoints points_;
 };
 
-/// At most kRestFrames, evenly, the first and the last among them.
+/// At most kRestFrames, evenly spaced, including the first and the last.
 std::vector<std::int64_t> rest_frames(std::int64_t frames) {
   const std::int64_t count = std::min(frames, kRestFrames);
   std::vector<std::int64_t> chosen;
@@ -155,8 +155,8 @@ std::vector<std::int64_t> rest_frames(std::int64_t frames) {
   return chosen;
 }
 
-/// How the head is mostly held: as in the frame from which it is least turned in the others, those counting most in
-/// which the trunk is upright. A mean would lie between two ways of looking.
+/// The usual orientation of the head: that of the frame with the least rotation to the others, weighted by how upright
+/// the trunk is. A mean would lie between two gaze directions.
 Quaternionf usual_head(std::span<const Seen> frames) {
   std::vector<float> weights;
   for (const Seen& seen : frames) {
@@ -207,7 +207,8 @@ std::vector<float> tracks_at(const MotionSource& motion, std::int64_t frame) {
   return values;
 }
 
-/// Opens lids that the frame has found closed: no track of theirs stays above what it has in a quarter of the frames.
+/// Opens eyelids that are closed in the frame: limits their tracks to the value that a quarter of the frames stay
+/// below.
 void open_eyes(const MotionSource& motion, std::vector<float>& values) {
   for (std::size_t track = 0; track < values.size(); ++track) {
     if (std::ranges::find(kLidTracks, motion.tracks()[track]) == kLidTracks.end()) continue;

@@ -12,7 +12,7 @@ namespace {
 using Eigen::Quaternionf;
 using Eigen::Vector3f;
 
-/// Someone whose arms, trunk and head are told by degrees.
+/// A person whose arms, trunk and head are given in degrees.
 struct Stance {
   double arms = 0;  ///< below the horizontal; 90 hanging
   double bow = 0;
@@ -23,7 +23,7 @@ Quaternionf turn_about(const Vector3f& axis, double degrees) {
   return Quaternionf(Eigen::AngleAxisf(static_cast<float>(degrees * std::numbers::pi / 180), axis));
 }
 
-/// Takes each stance in turn for `hold` frames after as many on the way there.
+/// Takes each stance in turn for `hold` frames, after as many frames of moving there.
 Motion taking(const std::vector<Stance>& stances, std::int64_t hold = 50) {
   Motion motion = rig_body({}, 2 * hold * static_cast<std::int64_t>(stances.size()));
   const auto joint = [&](std::string_view name) {
@@ -54,13 +54,13 @@ RestPose rest_of(const Motion& motion) {
   return rest_pose_of(MemorySource(motion), signer);
 }
 
-/// Which stance a frame holds, but for a few degrees; none while on the way.
+/// The stance of a frame, within a few degrees; none while moving.
 int held(std::int64_t frame) {
   return frame % 100 >= 40 ? static_cast<int>(frame / 100) : -1;
 }
 
 TEST(RestPoseOf, HandsLowBodyStillTrunkUprightHeadAhead) {
-  const std::vector<Stance> stances = {{},                        // as a capture begins, arms held out
+  const std::vector<Stance> stances = {{},                        // begin of a capture, arms held out
                                        {.arms = -40},             // signs
                                        {.arms = 80, .bow = 40},   // bows
                                        {.arms = 80, .look = 45},  // looks away
@@ -76,7 +76,7 @@ TEST(RestPoseOf, HandsLowBodyStillTrunkUprightHeadAhead) {
   EXPECT_EQ(rest.pose.translations.size(), 1u);
 }
 
-TEST(RestPoseOf, TheLowestSlowPoseWhereHandsNeverRest) {
+TEST(RestPoseOf, TheLowestSlowPoseIfHandsNeverRest) {
   const Motion motion = taking({{.arms = -60}, {.arms = -10}, {.arms = -70}, {.arms = -30}});
   EXPECT_EQ(held(rest_of(motion).frame), 1) << rest_of(motion).frame;
 }
@@ -94,27 +94,27 @@ TEST(RestPoseOf, StillRatherThanWalkingAndOnBothFeet) {
   EXPECT_EQ(rest_of(motion).frame / 100, 2) << rest_of(motion).frame;
 }
 
-TEST(RestPoseOf, TheLastFrameIsLookedAt) {
+TEST(RestPoseOf, TheLastFrameIsExamined) {
   Motion motion = taking({{.arms = 0}, {.arms = 20}});
   Motion end = taking({{.arms = 80}});
   motion.append(std::as_const(end).pose(0));
   EXPECT_EQ(rest_of(motion).frame, 200);
 }
 
-TEST(RestPoseOf, TheFirstFrameWhereNothingIsKnown) {
+TEST(RestPoseOf, TheFirstFrameIfNothingIsKnown) {
   const Motion motion = taking({{}, {.arms = 80}});
   EXPECT_EQ(rest_pose_of(MemorySource(motion), {}).frame, 0);
   const Motion one = motion.slice({7, 8});
   EXPECT_EQ(rest_of(one).frame, 0);
 }
 
-TEST(RestPoseOf, GivesTheTracksWithOpenEyes) {
+TEST(RestPoseOf, HasTracksWithOpenEyes) {
   Motion motion = taking({{}, {.arms = 80}, {.arms = -20}});
   ScalarTrack lid{"eyeBlinkLeft", std::vector<float>(300, 0.1f)};
   ScalarTrack jaw{"jawOpen", std::vector<float>(300)};
   for (std::size_t i = 0; i < 300; ++i) {
     jaw.values[i] = static_cast<float>(i);
-    if (i >= 140 && i < 200) lid.values[i] = 1;  // shut at rest
+    if (i >= 140 && i < 200) lid.values[i] = 1;  // closed at rest
   }
   motion.add_track(lid);
   motion.add_track(jaw);

@@ -14,14 +14,14 @@
 namespace signweave {
 namespace {
 
-/// Glosses whose tokens are kept. A database may have more glosses than anybody asks for.
+/// Maximum number of glosses whose tokens are cached. A database may have more glosses than are ever requested.
 constexpr std::size_t kMostKept = 8192;
 constexpr std::size_t kMostRigs = 1024;
 constexpr std::size_t kMostMappings = 256;
-/// So many glosses of an utterance that nobody asked for before are looked up with all that is known of their tokens;
-/// of more it is only told whether they are there, so that the first frame does not wait for the last gloss.
+/// Number of new glosses of an utterance whose tokens are checked completely; for the others only their existence is
+/// checked, so that the first frame does not wait for the last gloss.
 constexpr std::size_t kLookedAtWhole = 8;
-/// Recordings whose signers' rests are looked for ahead of time.
+/// Maximum number of recordings whose signers' rest poses are computed in advance.
 constexpr std::size_t kMostRests = 64;
 
 }  // namespace
@@ -45,7 +45,8 @@ std::uint64_t SharedSigningCache::state_number(const std::shared_ptr<const Conte
   return of(contents).number;
 }
 
-/// `find` gives the place of a value among what is known; where it is empty, `make` makes the value, with no lock held.
+/// `find` returns the slot of a value in the cached data; if it is empty, `make` creates the value without holding the
+/// lock.
 template <typename Value, typename Find, typename Make>
 std::shared_ptr<const Value> SharedSigningCache::look_up(const std::shared_ptr<const Contents>& contents, Find find,
                                                          Make make) {
@@ -82,7 +83,7 @@ void SharedSigningCache::warm_up() {
                             .clock = info.clock,
                             .signs = {}};
       rest(snapshot, clip, *rig(snapshot, info.name));
-    } catch (const Error& error) {  // told when it is signed
+    } catch (const Error& error) {  // reported when it is signed
       if (error.code() != ErrorCode::corrupt) throw;
     }
   }

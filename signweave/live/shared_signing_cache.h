@@ -22,7 +22,7 @@
 
 namespace signweave {
 
-/// Where a signer rests.
+/// The rest pose of a signer.
 struct KnownRest {
   std::string signer;
   std::shared_ptr<const Skeleton> skeleton;
@@ -30,67 +30,67 @@ struct KnownRest {
   RestPose rest;
 };
 
-/// What many players of one database share and what does not depend on what they sign: how long transitions last, which
-/// joint is what, where a signer rests, the tokens of a gloss. Made when it is first asked for, and again after a
-/// change of the database. Threads may share it; it must outlive its players, and the database it.
+/// Data shared by the players of one database that does not depend on what they sign: durations of transitions, joint
+/// roles, rest poses, tokens of glosses. Computed on first use, and again after the database changes. Threads may share
+/// it. It must outlive its players, and the database must outlive it.
 class SharedSigningCache {
  public:
   explicit SharedSigningCache(const Database& database, std::size_t cached_bytes = kCachedBytes);
   static constexpr std::size_t kCachedBytes = std::size_t{256} << 20;
 
   const Database& database() const noexcept { return database_; }
-  /// Makes now what players would wait for.
+  /// Computes in advance what players would otherwise wait for.
   void warm_up();
 
-  /// What follows is of the contents given, which are the database's now or were.
+  /// The following functions return data of the given contents, which are the database's current or earlier ones.
 
   /// As `durations_of`.
   std::shared_ptr<const DurationFit> durations(const std::shared_ptr<const Contents>& contents,
                                                const DurationModel& model);
-  /// As `candidates_for`; throws what it throws.
+  /// As `candidates_for`; throws the same errors.
   std::shared_ptr<const std::vector<Candidate>> candidates(const std::shared_ptr<const Contents>& contents,
                                                            const Place& place);
-  /// Throws what `candidates_for` throws for one of the places. Of a long utterance, glosses whose tokens all lack a
-  /// stroke or a motion may be told later.
+  /// Throws what `candidates_for` throws for one of the places. In a long utterance, glosses whose tokens all lack a
+  /// stroke or a motion may be reported later.
   void check(const std::shared_ptr<const Contents>& contents, const std::vector<Place>& places);
   /// As `signer_rig_of` for a recording.
   std::shared_ptr<const SignerRig> rig(const Snapshot& snapshot, const std::string& recording);
   /// As `captured_spans`, for the skeleton of a recording.
   std::shared_ptr<const CapturedSpans> spans(const Snapshot& snapshot, const MotionClip& clip, const SignerRig& rig,
                                              Needs needs);
-  /// Where the signer of a recording rests, in one of the signer's recordings.
+  /// The rest pose of a recording's signer, from one of the signer's recordings.
   std::shared_ptr<const KnownRest> rest(const Snapshot& snapshot, const MotionClip& clip, const SignerRig& rig);
-  /// How a recording's motion is put onto the skeleton of `onto`, which has other joints. Throws what `map_body`
-  /// throws; Error{conflict} where `onto` was removed since, or has no longer that skeleton.
+  /// The mapping of a recording's motion to the skeleton of `onto`, which has other joints. Throws what `map_body`
+  /// throws; Error{conflict} if `onto` was removed since, or no longer has that skeleton.
   std::shared_ptr<const BodyMapping> mapping(const Snapshot& snapshot, const std::string& recording,
                                              const std::string& onto, const Skeleton& skeleton);
   /// The names of all scalar tracks of the database, those of `recording` first.
   std::vector<std::string> tracks(const Contents& contents, const std::string& recording) const;
-  /// What all recordings declare of themselves, each once.
+  /// The unique declarations of all recordings.
   std::shared_ptr<const std::vector<std::pair<std::string, std::string>>> declarations(
       const std::shared_ptr<const Contents>& contents);
 
-  /// Tells the states of the database apart that were asked for: what is made in one does not serve in another.
+  /// A number for each state of the database that was used; data computed in one state is not valid in another.
   std::uint64_t state_number(const std::shared_ptr<const Contents>& contents);
-  /// So that two signers do not breathe and blink as one.
+  /// A new seed, so that two signers do not breathe and blink in sync.
   std::uint64_t new_seed() noexcept { return ++seeds_; }
-  /// What was made before.
+  /// The cached transitions.
   TransitionCache& transitions() noexcept { return transitions_; }
 
  private:
   struct Known {
     std::shared_ptr<const Contents> contents;
     std::uint64_t number = 0;
-    std::map<bool, std::shared_ptr<const DurationFit>> durations;  ///< by whether they may be fitted
-    std::unordered_map<std::string, std::shared_ptr<const std::vector<Candidate>>> candidates;  ///< by the place
+    std::map<bool, std::shared_ptr<const DurationFit>> durations;  ///< by DurationModel::fitted
+    std::unordered_map<std::string, std::shared_ptr<const std::vector<Candidate>>> candidates;  ///< by place
     std::map<std::string, std::shared_ptr<const SignerRig>> rigs;                               ///< by recording
     std::map<std::pair<std::string, Needs>, std::shared_ptr<const CapturedSpans>> spans;  ///< by recording and needs
     std::map<std::pair<std::string, std::string>, std::shared_ptr<const BodyMapping>>
-        mappings;                                         ///< by recording, and that whose skeleton it is put onto
-    std::vector<std::shared_ptr<const KnownRest>> rests;  ///< few: of each signer one for each skeleton
+        mappings;                                         ///< by recording, and the recording of the target skeleton
+    std::vector<std::shared_ptr<const KnownRest>> rests;  ///< few: one for each signer and skeleton
     std::shared_ptr<const std::vector<std::pair<std::string, std::string>>> declarations;
   };
-  /// What is known of these contents; of others than the newest nothing is kept. Call it with the lock held.
+  /// The cached data of these contents; only that of the newest is kept. Requires the lock.
   Known& of(const std::shared_ptr<const Contents>& contents);
   template <typename Value, typename Find, typename Make>
   std::shared_ptr<const Value> look_up(const std::shared_ptr<const Contents>& contents, Find find, Make make);

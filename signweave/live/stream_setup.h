@@ -10,20 +10,20 @@
 #include "signweave/live/shared_signing_cache.h"
 #include "signweave/live/transition_builder.h"
 
-/// Inside this module only.
+/// Internal to this module.
 namespace signweave {
 
-/// What the first clip of a stream decides for all of it.
+/// Settings of a stream that its first clip determines.
 struct StreamSetup {
   StreamHeader header;
   SourceRef skeleton;  ///< of the header
   std::shared_ptr<const DurationFit> fit;
   std::shared_ptr<const SignerRig> rig;
-  std::shared_ptr<const CapturedSpans> spans;  ///< null: the method asks for none
+  std::shared_ptr<const CapturedSpans> spans;  ///< null: the method needs none
   std::optional<TransitionBuilder> builder;    ///< never empty
   std::shared_ptr<const LivingRest> living;    ///< null with Idle::end
-  std::string key;                             ///< what all its transitions depend on
-  std::vector<Notice> notices;                 ///< of how it will be signed
+  std::string key;                             ///< everything that all its transitions depend on
+  std::vector<Notice> notices;                 ///< about how it will be signed
 };
 
 /// Throws what `map_body`, `captured_spans` and reading throw.
@@ -31,10 +31,10 @@ std::unique_ptr<StreamSetup> set_up(SharedSigningCache& base, const Snapshot& sn
                                     const std::shared_ptr<const Contents>& contents, const MotionClip& first,
                                     const PlayerOptions& options);
 
-/// What a clip's frames are of.
+/// Identifies the frames of a clip.
 std::string key_of(const MotionClip& clip);
 
-/// The signer at rest, placed by itself from output frame 0 on.
+/// The signer at rest, placed from output frame 0.
 std::shared_ptr<LiveClip> place_rest(const StreamSetup& setup);
 
 }  // namespace signweave

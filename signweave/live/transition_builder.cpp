@@ -13,15 +13,15 @@
 namespace signweave {
 namespace {
 
-/// Memory of a thread for the junctions that it makes, whosever they are: it is large, and needed for a moment only.
-struct WeavingScratch {
+/// Per-thread memory for making junctions, shared by all builders, because it is large and needed only briefly.
+struct BuilderScratch {
   JunctionScratch junction;
   Motion window, core;
   std::vector<ScalarTrack> tracks;
 };
-constexpr std::int64_t kKeptFrames = 2'048;  ///< what takes more memory gives it back
-WeavingScratch& scratch() {
-  thread_local WeavingScratch kept;
+constexpr std::int64_t kKeptFrames = 2'048;  ///< longer buffers are freed after use
+BuilderScratch& scratch() {
+  thread_local BuilderScratch kept;
   return kept;
 }
 
@@ -70,7 +70,7 @@ void TransitionBuilder::place_first(LiveClip& clip) {
 }
 
 JunctionCuts TransitionBuilder::join(LiveClip& a, LiveClip& b, Motion& made) {
-  WeavingScratch& memory = scratch();
+  BuilderScratch& memory = scratch();
   const JunctionCuts cuts = timer_.cuts_between(a.placed, b.placed, b.captured.pause_before, memory.junction);
   if (cuts.tracks.length > kMostMade) {
     throw Error(ErrorCode::bad_input,

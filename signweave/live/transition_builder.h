@@ -13,29 +13,29 @@
 
 namespace signweave {
 
-/// A clip as it lies among the output frames of a `TransitionBuilder`. Not moved once it is placed.
+/// A clip among the output frames of a `TransitionBuilder`. Its address must not change once it is placed.
 struct LiveClip {
   MotionClip captured;
-  PlacedClip placed;                  ///< points to the clip
-  bool aligned = false;               ///< it is brought to where the home's signer stands
-  std::vector<std::size_t> track_of;  ///< [track of its source] which of the result's it is; kNoTrack: none
+  PlacedClip placed;                  ///< points to `captured`
+  bool aligned = false;               ///< it is moved to where the home clip's signer stands
+  std::vector<std::size_t> track_of;  ///< [track of its source] index of the result's track, or kNoTrack
   static constexpr std::size_t kNoTrack = static_cast<std::size_t>(-1);
-  std::string key;                   ///< the caller's: tells it from others; empty where no other is like it
-  std::optional<JunctionCuts> cuts;  ///< of the junction before it; none: it was not joined
-  std::size_t number = 0;            ///< the caller's: of the clips of a stream
+  std::string key;                   ///< set by the caller: identifies its frames; empty: unique
+  std::optional<JunctionCuts> cuts;  ///< of the junction before it; none: not joined
+  std::size_t number = 0;            ///< set by the caller: number within the stream
 
   LiveClip() = default;
   LiveClip(const LiveClip&) = delete;
   LiveClip& operator=(const LiveClip&) = delete;
 };
 
-/// Joins clips one after another, while it is not known what comes: the same frames as `concatenate` makes of all
-/// of them. A junction costs the same however long the utterance is. Belongs to one thread.
+/// Joins clips one after another, without knowing the following ones. Gives the same frames as `concatenate` for all of
+/// them. The cost of a junction does not depend on the length of the utterance. Used by one thread.
 class TransitionBuilder {
  public:
-  /// What the settings point to must outlive it. `tracks`: names of the result's scalar tracks; those of clips that
-  /// are not among them are left out. `home`: the clip where whose signer stands all others are brought; its frames
-  /// are read here, and it is not kept. Throws Error{corrupt}.
+  /// Everything that the settings point to must outlive it. `tracks` are the names of the result's scalar tracks; other
+  /// tracks of clips are ignored. `home` is the clip to whose signer's standing all others are moved; its frames are
+  /// read here, and it is not stored. Throws Error{corrupt}.
   TransitionBuilder(const JunctionSettings& settings, const TransitionTiming& timing, std::vector<std::string> tracks,
                     Alignment alignment, const MotionClip& home);
 
@@ -43,22 +43,22 @@ class TransitionBuilder {
   const std::vector<std::string>& tracks() const noexcept { return tracks_; }
   const Standing& home() const noexcept { return home_; }
 
-  /// Lays `clip.captured` as what is signed: at the settings' tempo, core at output frame 0 for now. Throws
-  /// Error{bad_input} where its skeleton differs in more than offsets.
+  /// Places `clip.captured` as a sign: at the timing's tempo, with its core at output frame 0 for now. Throws
+  /// Error{bad_input} if its skeleton differs in more than offsets.
   void place_sign(LiveClip& clip) const;
-  /// Lays what is in output frames already, and where it belongs.
+  /// Places a clip whose frames are output frames already, in their final position.
   void place_frames(LiveClip& clip) const;
 
-  /// Where a clip that none is before stands.
+  /// Positions a clip that has no predecessor.
   void place_first(LiveClip& clip);
-  /// No more frames are made between two clips.
+  /// Maximum number of frames generated between two clips.
   static constexpr std::int64_t kMostMade = 20'000;
-  /// Lays b behind a and makes the frames between: `made` has those from a's core's end to b's core, with the tracks.
-  /// Of a, frames before its core's end stay as they are. Throws Error{corrupt},
-  /// Error{bad_input} where there would be more than kMostMade.
+  /// Places b after a and makes the frames between: `made` gets those from the end of a's core to the begin of b's
+  /// core, with the tracks. Frames of a before the end of its core are unchanged. Throws Error{corrupt},
+  /// Error{bad_input} if there would be more than kMostMade.
   JunctionCuts join(LiveClip& a, LiveClip& b, Motion& made);
 
-  /// Output frames of a clip that is placed: of its preparation, core or retraction. `tracks`: a span for each.
+  /// Reads output frames of a placed clip: of its preparation, core or retraction. `tracks` has one span per track.
   void read(const LiveClip& clip, FrameRange frames, MutablePoses out, std::span<const std::span<float>> tracks) const;
 
  private:

@@ -16,22 +16,22 @@
 
 namespace signweave {
 
-/// A transition between two tokens, as it was made.
+/// A generated transition between two tokens.
 struct MadeTransition {
   JunctionCuts cuts;
   std::optional<GroundTransform> standing;  ///< of the clip after it
   std::shared_ptr<const Motion> frames;
 };
 
-/// Transitions that were made, for all who sign the same tokens one after the other: a loop, or an utterance that many
-/// watch. Where there are too many, any of them goes: many loops that come round in turn would find nothing of theirs
-/// if the oldest went. Threads may share it.
+/// A cache of generated transitions for players that sign the same tokens in sequence: a loop, or an utterance with
+/// many viewers. When full, it evicts a random entry: evicting the oldest would make many loops that play in turn miss
+/// every time. Threads may share it.
 class TransitionCache {
  public:
-  /// Holds no more than so many bytes of frames.
+  /// Stores at most this many bytes of frames.
   explicit TransitionCache(std::size_t most_bytes) : most_bytes_(most_bytes) {}
 
-  /// The key tells all that a transition depends on.
+  /// The key contains everything that a transition depends on.
   std::shared_ptr<const MadeTransition> find(const std::string& key);
   void keep(const std::string& key, std::shared_ptr<const MadeTransition> made);
   void clear();

@@ -12,13 +12,13 @@ std::shared_ptr<const MadeTransition> made_of(std::int64_t frames) {
       .cuts = {}, .standing = {}, .frames = std::make_shared<Motion>(skeleton, FrameRate{60, 1}, frames)});
 }
 
-TEST(TransitionCacheTest, GivesBackWhatWasKept) {
+TEST(TransitionCacheTest, ReturnsStoredTransitions) {
   TransitionCache cache(1 << 20);
   EXPECT_EQ(cache.find("a"), nullptr);
   const auto made = made_of(3);
   cache.keep("a", made);
   EXPECT_EQ(cache.find("a"), made);
-  cache.keep("a", made_of(4));  // the first stays
+  cache.keep("a", made_of(4));  // the first one is kept
   EXPECT_EQ(cache.find("a"), made);
   EXPECT_EQ(cache.counts().found, 2u);
   EXPECT_EQ(cache.counts().missed, 1u);
@@ -27,12 +27,12 @@ TEST(TransitionCacheTest, GivesBackWhatWasKept) {
   EXPECT_EQ(cache.counts().bytes, 0u);
 }
 
-TEST(TransitionCacheTest, HoldsNoMoreThanItMayAndStaysUsefulBeyond) {
+TEST(TransitionCacheTest, RespectsItsLimitAndStaysUsefulWhenFull) {
   constexpr std::size_t kMost = 100'000;
   TransitionCache cache(kMost);
   cache.keep("huge", made_of(100'000));
   EXPECT_EQ(cache.find("huge"), nullptr);
-  // A cycle one and a half times as long as there is room for.
+  // A cycle one and a half times as long as the cache.
   const std::size_t each = 28 * 40 + sizeof(MadeTransition) + 8;
   const std::size_t cycle = kMost / each * 3 / 2;
   std::size_t found = 0;

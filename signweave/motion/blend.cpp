@@ -11,9 +11,9 @@ Eigen::Quaternionf slerp_as_signed(const Eigen::Quaternionf& a, const Eigen::Qua
   const float cosine = std::clamp(a.dot(b), -1.0f, 1.0f);
   float from = 1.0f - t;
   float to = t;
-  if (cosine < -0.9995f) {  // a whole turn apart: every way round is as long, so none is taken
+  if (cosine < -0.9995f) {  // a whole turn apart: all arcs are equally long, so none is taken
     to = -to;
-  } else if (cosine < 0.9995f) {  // nearer than that the arc is a line within a float's precision
+  } else if (cosine < 0.9995f) {  // any closer, the arc is a straight line within float precision
     const float angle = std::acos(cosine);
     const float inverse = 1.0f / std::sin(angle);
     from = std::sin(from * angle) * inverse;
@@ -29,7 +29,7 @@ Eigen::Quaternionf slerp(const Eigen::Quaternionf& a, const Eigen::Quaternionf& 
 }
 
 void blend(PoseView a, PoseView b, float t, MutablePoseView out) noexcept {
-  if (t <= 0.0f || t >= 1.0f) {  // the ends keep their bits
+  if (t <= 0.0f || t >= 1.0f) {  // the ends are exact
     for (std::size_t i = 0; i < out.rotations.size(); ++i) out.rotations[i] = slerp(a.rotations[i], b.rotations[i], t);
   } else {
     slerp(a.rotations, b.rotations, t, out.rotations);
@@ -60,7 +60,7 @@ Standing standing_over(const Motion& motion, FrameRange frames) noexcept {
   for (std::int64_t frame = frames.begin; frame < frames.end; ++frame) {
     const PoseView pose = motion.pose(frame);
     if (root_moves) position += pose.translations[0].cast<double>();
-    // The twist of the root's rotation about the vertical: twice the angle whose tangent is y / w.
+    // The twist of the root's rotation about the vertical is twice the angle whose tangent is y / w.
     const double y = static_cast<double>(pose.rotations[0].y());
     const double w = static_cast<double>(pose.rotations[0].w());
     const double square = y * y + w * w;

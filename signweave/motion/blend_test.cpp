@@ -38,7 +38,7 @@ std::shared_ptr<const Skeleton> skeleton() {
       std::vector<Joint>{{"Hips", kNoJoint, {0, 1, 0}, true}, {"Arm", 0, {1, 0, 0}, false}}, std::vector<Tip>{});
 }
 
-/// The root walks along x one metre a frame and turns a tenth about y; the arm turns 0.2 about z.
+/// The root moves one metre per frame along x and turns by 0.1 about y; the arm turns by 0.2 about z.
 Motion walk(std::int64_t frames) {
   Motion motion(skeleton(), {100, 1}, frames);
   for (std::int64_t frame = 0; frame < frames; ++frame) {
@@ -50,7 +50,7 @@ Motion walk(std::int64_t frames) {
   return motion;
 }
 
-TEST(Slerp, GoesTheHandComputedWay) {
+TEST(Slerp, FollowsTheHandComputedArc) {
   const Quaternionf a = Quaternionf::Identity();
   const Quaternionf b(AngleAxisf(kPi / 2, Vector3f::UnitY()));
   const Quaternionf third = slerp(a, b, 1.0f / 3);
@@ -67,13 +67,13 @@ RC_GTEST_PROP(Slerp, IsUnitAndDividesTheShortestArcEvenly, ()) {
   const Quaternionf between = slerp(a, b, t);
   RC_ASSERT(std::abs(between.norm() - 1) < 1e-6f);
   const float whole = angle_between(a, b);
-  // Half a turn apart every way is shortest; just short of that rounding chooses it.
+  // Half a turn apart all arcs are equally short; just below that, rounding decides.
   RC_PRE(whole < kPi - 0.01f);
   RC_ASSERT(std::abs(angle_between(a, between) - t * whole) < 2e-5f);
   RC_ASSERT(std::abs(angle_between(between, b) - (1 - t) * whole) < 2e-5f);
 }
 
-RC_GTEST_PROP(Slerp, HasTheBitsOfItsEnds, ()) {
+RC_GTEST_PROP(Slerp, IsExactAtItsEnds, ()) {
   const Quaternionf a = *any_rotation();
   const Quaternionf b = *any_rotation();
   RC_ASSERT(slerp(a, b, 0).coeffs() == a.coeffs());
@@ -82,7 +82,7 @@ RC_GTEST_PROP(Slerp, HasTheBitsOfItsEnds, ()) {
   RC_ASSERT(slerp(a, a, *within(0, 1)).isApprox(a, 1e-6f));
 }
 
-RC_GTEST_PROP(Slerp, DoesNotCareWhichOfTheTwoQuaternionsStandsForTheEnd, ()) {
+RC_GTEST_PROP(Slerp, DoesNotDependOnTheSignOfTheEnd, ()) {
   const Quaternionf a = *any_rotation();
   const Quaternionf b = *any_rotation();
   RC_PRE(std::abs(a.dot(b)) > 1e-3f);
@@ -90,8 +90,8 @@ RC_GTEST_PROP(Slerp, DoesNotCareWhichOfTheTwoQuaternionsStandsForTheEnd, ()) {
   RC_ASSERT(slerp(a, b, t).coeffs().isApprox(slerp(a, Quaternionf(-b.coeffs()), t).coeffs(), 1e-6f));
 }
 
-TEST(Slerp, KeepsItsEvenPaceWhereTheArcIsShort) {
-  // On both sides of the angle where the arc is taken for a line.
+TEST(Slerp, HasConstantSpeedOnAShortArc) {
+  // On both sides of the angle at which the arc is approximated by a line.
   for (const float angle : {1e-4f, 0.03f, 0.0632f, 0.0633f, 0.1f}) {
     const Quaternionf b(AngleAxisf(angle, Vector3f::UnitX()));
     for (const float t : {0.25f, 0.5f, 0.9f}) {
@@ -117,7 +117,7 @@ TEST(Blend, MayWriteIntoEitherOfItsSources) {
   EXPECT_NEAR(angle_between(wanted.rotations[1], Quaternionf::Identity()), 0.05f, 1e-6f);
 }
 
-TEST(Sample, HasTheBitsOfAWholeFrameAndTheEndsOutsideTheMotion) {
+TEST(Sample, IsExactAtWholeFramesAndClampsOutsideTheMotion) {
   const Motion motion = walk(5);
   Pose pose(motion.skeleton());
   const auto expect_frame = [&](double at, std::int64_t frame) {
@@ -131,13 +131,13 @@ TEST(Sample, HasTheBitsOfAWholeFrameAndTheEndsOutsideTheMotion) {
   expect_frame(1e18, 4);
 }
 
-TEST(Sample, LiesBetweenItsNeighbours) {
+TEST(Sample, IsBetweenItsNeighbours) {
   const Motion motion = walk(5);
   Pose pose(motion.skeleton());
   sample(motion, 2.75, pose.view());
   EXPECT_FLOAT_EQ(pose.translations[0].x(), 2.75f);
   EXPECT_NEAR(angle_between(pose.rotations[1], Quaternionf::Identity()), 0.55f, 1e-6f);
-  // A motion of one frame is everywhere that frame.
+  // A motion of one frame has that pose at all times.
   sample(walk(1), 0.5, pose.view());
   EXPECT_EQ(pose.translations[0].x(), 0);
 }
@@ -148,7 +148,7 @@ TEST(StandingOver, IsTheMeanPlaceOnTheGroundAndTheMeanHeading) {
   EXPECT_NEAR(standing.heading, 0.2f, 1e-6f);
 }
 
-TEST(StandingOver, TakesTheMeanOfHeadingsRoundTheCircle) {
+TEST(StandingOver, TakesTheCircularMeanOfHeadings) {
   Motion motion(skeleton(), {100, 1}, 2);
   motion.pose(0).rotations[0] = AngleAxisf(kPi - 0.1f, Vector3f::UnitY());
   motion.pose(1).rotations[0] = AngleAxisf(-kPi + 0.1f, Vector3f::UnitY());
@@ -169,14 +169,14 @@ TEST(Align, MovesAQuarterTurnByHand) {
   const Standing to{.position = {5, 0, 7}, .heading = kPi / 2};
   const GroundTransform transform = align(from, to);
   Pose pose(*skeleton());
-  pose.translations[0] = {1, 0.9f, 2};  // two metres in front of where they stand
+  pose.translations[0] = {1, 0.9f, 2};  // two metres in front of the standing
   apply(transform, *skeleton(), pose.view());
-  // In front is now +x, and the height is what it was.
+  // In front is now +x, and the height is unchanged.
   EXPECT_TRUE(pose.translations[0].isApprox(Vector3f(7, 0.9f, 7), 1e-5f)) << pose.translations[0].transpose();
   EXPECT_EQ(pose.rotations[1].coeffs(), Quaternionf::Identity().coeffs());
 }
 
-TEST(Align, TurnsARootThatCannotMoveAndLeavesTheOthers) {
+TEST(Align, TurnsARootWithoutTranslationAndLeavesTheOthers) {
   const auto fixed = std::make_shared<const Skeleton>(
       std::vector<Joint>{{"Hips", kNoJoint, {0, 1, 0}, false}, {"Spine", 0, {0.3f, 0, 0}, true}}, std::vector<Tip>{});
   Motion motion(fixed, {100, 1}, 2);
@@ -184,11 +184,11 @@ TEST(Align, TurnsARootThatCannotMoveAndLeavesTheOthers) {
   EXPECT_EQ(standing_over(motion, {0, 2}).position, Vector3f::Zero());
   const Standing there{.position = {5, 0, 7}, .heading = kPi / 2};
   apply(align(standing_over(motion, {0, 2}), there), *fixed, motion.pose(0));
-  EXPECT_EQ(motion.pose(0).translations[0], Vector3f(0.3f, 0.1f, 0.2f));  // the spine's way from the hips
+  EXPECT_EQ(motion.pose(0).translations[0], Vector3f(0.3f, 0.1f, 0.2f));  // the spine's offset from the hips
   EXPECT_NEAR(standing_over(motion, {0, 1}).heading, kPi / 2, 1e-5f);
 }
 
-RC_GTEST_PROP(Align, PutsASignerWhereAnotherStands, ()) {
+RC_GTEST_PROP(Align, MovesASignerToAnotherStanding, ()) {
   const auto somewhere = [] {
     return Standing{.position = {*within(-5, 5), 0, *within(-5, 5)}, .heading = *within(-3.1f, 3.1f)};
   };

@@ -13,7 +13,7 @@ using Eigen::Vector3f;
 
 constexpr float kQuarter = std::numbers::pi_v<float> / 2;
 
-/// Hips at height 1, an arm of 0.3 + 0.2 along x, a hand whose tip is 0.1 on, and a second child of the hips.
+/// Hips at height 1, an arm of 0.3 + 0.2 along x, a hand whose tip is 0.1 further, and a second child of the hips.
 Skeleton body() {
   return Skeleton({{"Hips", kNoJoint, {0, 1, 0}, true},
                    {"Arm", 0, {0.1f, 0.4f, 0}, false},
@@ -40,7 +40,7 @@ TEST(ToModelSpace, TurnsEverythingBeyondAJointAboutThatJoint) {
   const Skeleton skeleton = body();
   Pose pose(skeleton);
   pose.rotations[1] = AngleAxisf(kQuarter, Vector3f::UnitZ());   // the arm up
-  pose.rotations[2] = AngleAxisf(-kQuarter, Vector3f::UnitY());  // in the turned arm's space: the forearm to the front
+  pose.rotations[2] = AngleAxisf(-kQuarter, Vector3f::UnitY());  // in the arm's space: forearm forward
   const ModelPose model = to_model_space(skeleton, pose.view());
   expect_at(model.positions[1], {0.1f, 1.4f, 0});
   expect_at(model.positions[2], {0.1f, 1.7f, 0});
@@ -49,7 +49,7 @@ TEST(ToModelSpace, TurnsEverythingBeyondAJointAboutThatJoint) {
   expect_at(model.positions[4], {0.1f, 0.9f, 0});  // the leg is on another branch
 }
 
-TEST(ToModelSpace, TakesATranslationInsteadOfTheOffset) {
+TEST(ToModelSpace, UsesATranslationInsteadOfTheOffset) {
   const Skeleton skeleton = body();
   Pose pose(skeleton);
   pose.translations[0] = {1, 2, 3};                             // the hips
@@ -61,7 +61,7 @@ TEST(ToModelSpace, TakesATranslationInsteadOfTheOffset) {
   expect_at(model.positions[1], {1.1f, 2, 3.4f});
 }
 
-TEST(ToModelSpace, UsesItsRoomAgain) {
+TEST(ToModelSpace, ReusesItsMemory) {
   const Skeleton skeleton = body();
   Pose pose(skeleton);
   ModelPose model;
@@ -86,7 +86,7 @@ TEST(ToModelSpace, KeepsBoneLengthsWhateverTheRotations) {
   EXPECT_NEAR((position_of(skeleton.tips()[0], model) - model.positions[3]).norm(), 0.1f, 1e-6f);
 }
 
-TEST(JointChains, ComputeTheJointsAskedForAndThoseAboveToTheSameBits) {
+TEST(JointChains, ComputeTheRequestedJointsAndTheirAncestorsToTheSameBits) {
   const Skeleton skeleton = body();
   Pose pose(skeleton);
   for (std::size_t i = 0; i < pose.rotations.size(); ++i) {
@@ -94,10 +94,10 @@ TEST(JointChains, ComputeTheJointsAskedForAndThoseAboveToTheSameBits) {
     pose.rotations[i] = AngleAxisf(0.3f + number, Vector3f(number, 1, 2).normalized());
   }
   pose.translations[0] = {1, 2, 3};
-  pose.translations[1] = {0.1f, -0.2f, 0};  // the leg's: its place among the translations counts the hips' too
+  pose.translations[1] = {0.1f, -0.2f, 0};  // the leg's translation, whose index counts that of the hips, too
   const ModelPose whole = to_model_space(skeleton, pose.view());
-  const auto expect_same = [&](const std::vector<JointIndex>& asked, const JointSet& computed) {
-    const JointChains chains(skeleton, asked);
+  const auto expect_same = [&](const std::vector<JointIndex>& requested, const JointSet& computed) {
+    const JointChains chains(skeleton, requested);
     EXPECT_EQ(chains.joints(), computed);
     ModelPose model;
     chains.to_model_space(pose.view(), model);

@@ -42,7 +42,7 @@ void Motion::reset(std::shared_ptr<const Skeleton> skeleton, FrameRate rate, std
   skeleton_ = std::move(skeleton);
   rate_ = rate;
   frames_ = frames;
-  // Cleared first, so that nothing old is moved along. Neither type writes anything when it is made.
+  // Cleared first, so that resizing moves no old values. Neither type initialises its values.
   rotations_.clear();
   translations_.clear();
   tracks_.clear();
@@ -56,7 +56,7 @@ void Motion::append(PoseView pose) {
   const std::less<> before;
   if (!before(pose.rotations.data(), rotations_.data()) &&
       before(pose.rotations.data(), rotations_.data() + rotations_.size())) {
-    const Pose own(pose);  // growing would move it away while it is being copied
+    const Pose own(pose);  // growing would move it during the copy
     append(own.view());
     return;
   }

@@ -14,13 +14,13 @@
 
 namespace signweave {
 
-/// One frame of a motion, borrowed from it.
+/// One frame of a motion; borrows the motion's memory.
 struct PoseView {
   std::span<const Eigen::Quaternionf> rotations;  ///< [joint], unit, each relative to its parent
   std::span<const Eigen::Vector3f> translations;  ///< [translated joint], the root first; metres, parent's space
 };
 
-/// The same, writable.
+/// A writable PoseView.
 struct MutablePoseView {
   std::span<Eigen::Quaternionf> rotations;
   std::span<Eigen::Vector3f> translations;
@@ -28,19 +28,19 @@ struct MutablePoseView {
   operator PoseView() const noexcept { return {rotations, translations}; }
 };
 
-/// Neighbouring frames of a motion, writable and borrowed from it.
+/// Consecutive frames of a motion; writable, borrows the motion's memory.
 struct MutablePoses {
   std::span<Eigen::Quaternionf> rotations;  ///< [frame][joint]
   std::span<Eigen::Vector3f> translations;  ///< [frame][translated joint]
 };
 
-/// One pose that owns its numbers.
+/// One pose that owns its values.
 struct Pose {
   std::vector<Eigen::Quaternionf> rotations;
   std::vector<Eigen::Vector3f> translations;
 
   Pose() = default;
-  /// The rest pose: every rotation the identity, every translation its joint's offset.
+  /// The rest pose: all rotations are the identity, each translation is its joint's offset.
   explicit Pose(const Skeleton& skeleton) : rotations(skeleton.joint_count(), Eigen::Quaternionf::Identity()) {
     translations.reserve(skeleton.translation_count());
     for (const JointIndex joint : skeleton.translated_joints()) translations.push_back(skeleton.joint(joint).offset);
@@ -52,7 +52,7 @@ struct Pose {
   MutablePoseView view() noexcept { return {rotations, translations}; }
 };
 
-/// One number per frame beside the joints, such as a face weight.
+/// A scalar value per frame in addition to the joints, such as a face weight.
 struct ScalarTrack {
   std::string name;
   std::vector<float> values;  ///< [frame]
@@ -63,7 +63,7 @@ struct ScalarTrack {
 class Motion {
  public:
   Motion() = default;
-  /// `frames` poses, every rotation the identity and every translation its joint's offset.
+  /// A motion of `frames` rest poses: all rotations are the identity, each translation is its joint's offset.
   Motion(std::shared_ptr<const Skeleton> skeleton, FrameRate rate, std::int64_t frames = 0);
 
   const Skeleton& skeleton() const noexcept { return *skeleton_; }
@@ -72,22 +72,22 @@ class Motion {
   std::int64_t frame_count() const noexcept { return frames_; }
   Seconds duration() const noexcept { return static_cast<double>(frames_) * rate_.frame_time(); }
 
-  /// The pose of a frame in [0, frame_count()). Borrowed: valid until a frame is appended or the motion ends.
+  /// The pose of a frame in [0, frame_count()). Borrowed: valid until a frame is appended or the motion is destroyed.
   PoseView pose(std::int64_t frame) const noexcept;
   MutablePoseView pose(std::int64_t frame) noexcept;
 
-  /// The poses of some frames, which must lie within the motion. Borrowed as `pose` is.
+  /// The poses of some frames, which must lie within the motion. Borrowed like `pose`.
   MutablePoses poses(FrameRange frames) noexcept;
 
-  /// Makes it a motion of so many poses that are yet to be written (their numbers are arbitrary), without tracks.
-  /// Memory is used again where it suffices.
+  /// Turns this into a motion of `frames` poses with unspecified values, to be written by the caller, and without
+  /// tracks. Reuses memory if it suffices.
   void reset(std::shared_ptr<const Skeleton> skeleton, FrameRate rate, std::int64_t frames);
 
-  /// Appends a pose, which must have the skeleton's counts; it may be one of this motion's own.
+  /// Appends a pose, whose counts must match the skeleton; it may be a pose of this motion.
   void append(PoseView pose);
-  /// Appends a pose at rest, to be filled in.
+  /// Appends a rest pose and returns it to be filled in.
   MutablePoseView append();
-  /// Makes room for that many frames; a hint.
+  /// Reserves memory for that many frames; a hint.
   void reserve(std::int64_t frames);
 
   /// All rotations, [frame][joint], and all translations, [frame][translated joint].
@@ -97,10 +97,10 @@ class Motion {
   const std::vector<ScalarTrack>& tracks() const noexcept { return tracks_; }
   /// Adds a track, which must have one value per frame.
   void add_track(ScalarTrack track);
-  /// Hands over the tracks; the motion has none then.
+  /// Moves the tracks out; the motion then has none.
   std::vector<ScalarTrack> take_tracks() noexcept { return std::exchange(tracks_, {}); }
 
-  /// A copy of some frames, with their part of every track. `range` must lie within the motion.
+  /// A copy of some frames, including their part of every track. `range` must lie within the motion.
   Motion slice(FrameRange range) const;
 
  private:
@@ -112,13 +112,13 @@ class Motion {
   std::vector<ScalarTrack> tracks_;
 };
 
-/// True where two motions are the same to the bit: skeleton, rate, poses and tracks; -0.0 and 0.0 are told apart.
+/// True if two motions are bit-identical in skeleton, rate, poses and tracks; -0.0 and 0.0 differ.
 bool same_bits(const Motion& a, const Motion& b) noexcept;
 
-/// Flips signs so that every quaternion lies in the hemisphere of the same joint's in the frame before: q and -q are
-/// one rotation, and a blend between neighbours must not turn the long way round.
+/// Flips signs so that every quaternion lies in the same hemisphere as the same joint's quaternion in the previous
+/// frame: q and -q are the same rotation, and a blend between neighbours must take the shorter arc.
 void keep_hemisphere(Motion& motion) noexcept;
-/// True where they do already.
+/// True if all quaternions do so already.
 bool keeps_hemisphere(const Motion& motion) noexcept;
 
 }  // namespace signweave

@@ -11,8 +11,8 @@
 
 namespace signweave {
 
-/// Where frames come from: a motion in memory or one that is stored. Reading goes straight to where the frames are
-/// wanted. Quaternions keep one hemisphere from frame to frame (see keep_hemisphere).
+/// A source of frames: a motion in memory or a stored one. Frames are read directly into the caller's memory.
+/// Quaternions stay in one hemisphere from frame to frame (see keep_hemisphere).
 class MotionSource {
  public:
   virtual ~MotionSource() = default;
@@ -23,18 +23,18 @@ class MotionSource {
   /// Names of the scalar tracks.
   virtual std::span<const std::string> tracks() const noexcept = 0;
 
-  /// Copies frames, which must lie within the motion, to `out`, which must have room for just these.
-  /// Throws Error{corrupt} where what is stored is damaged.
+  /// Copies frames, which must lie within the motion, to `out`, whose size must match. Throws Error{corrupt} if the
+  /// stored data is damaged.
   virtual void read(FrameRange frames, MutablePoses out) const = 0;
-  /// The same for the scalar tracks: a span for each of them, in the order of `tracks()`; one that is empty is left
-  /// out.
+  /// The same for the scalar tracks: one span per track, in the order of `tracks()`; a track with an empty span is
+  /// skipped.
   virtual void read_tracks(FrameRange frames, std::span<const std::span<float>> out) const = 0;
 };
 
-/// A motion in memory that somebody else keeps, and that has its neighbours in one hemisphere.
+/// A motion in memory, not owned, whose quaternions already keep their hemisphere.
 class BorrowedSource : public MotionSource {
  public:
-  /// The motion must outlive it, and stay as it is.
+  /// The motion must outlive the source and must not change.
   explicit BorrowedSource(const Motion& motion);
 
   const std::shared_ptr<const Skeleton>& skeleton() const noexcept override { return motion_.shared_skeleton(); }
@@ -49,10 +49,10 @@ class BorrowedSource : public MotionSource {
   std::vector<std::string> tracks_;
 };
 
-/// A motion in memory.
+/// A motion in memory, owned.
 class MemorySource : public MotionSource {
  public:
-  /// Turns the signs of quaternions that leave their hemisphere.
+  /// Flips the signs of quaternions as keep_hemisphere does.
   explicit MemorySource(Motion motion);
   MemorySource(const MemorySource&) = delete;
   MemorySource& operator=(const MemorySource&) = delete;
@@ -69,7 +69,7 @@ class MemorySource : public MotionSource {
 
  private:
   Motion motion_;
-  BorrowedSource borrowed_;  ///< of it
+  BorrowedSource borrowed_;  ///< refers to motion_
 };
 
 }  // namespace signweave

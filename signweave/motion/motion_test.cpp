@@ -19,7 +19,7 @@ std::shared_ptr<const Skeleton> arm() {
       std::vector<Tip>{});
 }
 
-/// Frame f is told by its numbers: the root at x = f, the arm turned f/10 about y.
+/// The numbers identify frame f: the root is at x = f, the arm is turned f/10 about y.
 Motion counted(std::int64_t frames) {
   Motion motion(arm(), {100, 1});
   for (std::int64_t frame = 0; frame < frames; ++frame) {
@@ -45,9 +45,9 @@ TEST(Motion, LastsItsFramesTimesTheFrameTime) {
   EXPECT_DOUBLE_EQ(Motion().duration().count(), 0);
 }
 
-TEST(Motion, TakesAFrameOfItsOwn) {
+TEST(Motion, AppendsAFrameOfItsOwn) {
   Motion motion = counted(3);
-  for (int i = 0; i < 100; ++i) motion.append(motion.pose(2));  // as a hold does; the storage moves meanwhile
+  for (int i = 0; i < 100; ++i) motion.append(motion.pose(2));  // as in a hold; the storage moves meanwhile
   ASSERT_EQ(motion.frame_count(), 103);
   for (std::int64_t frame = 2; frame < 103; ++frame) {
     EXPECT_EQ(motion.pose(frame).translations[0].x(), 2) << frame;
@@ -55,7 +55,7 @@ TEST(Motion, TakesAFrameOfItsOwn) {
   }
 }
 
-TEST(Slice, HasTheVeryBitsOfItsFramesAndTheirPartOfEveryTrack) {
+TEST(Slice, HasTheBitsOfItsFramesAndTheirPartOfEveryTrack) {
   Motion motion = counted(10);
   motion.add_track({"jaw", {0, 1, 2, 3, 4, 5, 6, 7, 8, 9}});
   const Motion part = motion.slice({3, 7});
@@ -93,7 +93,7 @@ TEST(Pose, IsAtRestUntilFilled) {
   EXPECT_EQ(pose.rotations.size(), 3U);
 }
 
-TEST(KeepHemisphere, TurnsNoRotationAndLeavesNeighboursOnOneSide) {
+TEST(KeepHemisphere, ChangesNoRotationAndLeavesNeighboursInOneHemisphere) {
   Motion motion = counted(40);
   for (std::int64_t frame = 0; frame < 40; frame += 3) motion.pose(frame).rotations[1].coeffs() *= -1;
   const Motion before = motion;
@@ -104,7 +104,7 @@ TEST(KeepHemisphere, TurnsNoRotationAndLeavesNeighboursOnOneSide) {
     const Quaternionf neighbour = motion.pose(std::max<std::int64_t>(frame - 1, 0)).rotations[1];
     EXPECT_GT(now.dot(neighbour), 0) << frame;
   }
-  // The first frame is the one that the others follow.
+  // The other frames follow the first one.
   EXPECT_EQ(motion.pose(0).rotations[1].coeffs(), before.pose(0).rotations[1].coeffs());
 }
 

@@ -8,8 +8,8 @@
 namespace signweave {
 namespace {
 
-/// Where frames of one rate lie among those of another. Products of the rates' whole numbers, so that frames which
-/// fall on one another do so exactly.
+/// Positions of frames of one rate among those of another. Uses products of the rates' whole numbers, so that
+/// coinciding frames coincide exactly.
 struct FrameScale {
   double above = 1;
   double below = 1;

@@ -15,7 +15,7 @@ std::shared_ptr<const Skeleton> one_bone() {
       std::vector<Tip>{});
 }
 
-/// Turns evenly about X and moves evenly along Z; a track counts the frames.
+/// Turns about X and moves along Z at constant speed; a track counts the frames.
 Motion turning(FrameRate rate, std::int64_t frames, double radians_per_second) {
   Motion motion(one_bone(), rate, frames);
   ScalarTrack track{.name = "count", .values = {}};
@@ -31,7 +31,7 @@ Motion turning(FrameRate rate, std::int64_t frames, double radians_per_second) {
   return motion;
 }
 
-TEST(Resampled, FramesThatFallOnCapturedOnesAreTheirs) {
+TEST(Resampled, FramesThatCoincideWithCapturedOnesEqualThem) {
   const Motion motion = turning({120, 1}, 25, 2.0);
   for (const RateMethod method : {RateMethod::slerp, RateMethod::nearest}) {
     const Motion half = resampled(motion, {60, 1}, method);
@@ -45,22 +45,22 @@ TEST(Resampled, FramesThatFallOnCapturedOnesAreTheirs) {
   }
 }
 
-TEST(Resampled, NothingIsMadeAfterTheLastCapturedFrame) {
-  EXPECT_EQ(resampled(turning({30, 1}, 10, 1), {120, 1}).frame_count(), 37);  // 9 steps of 4, and the first
+TEST(Resampled, NothingIsExtrapolatedAfterTheLastCapturedFrame) {
+  EXPECT_EQ(resampled(turning({30, 1}, 10, 1), {120, 1}).frame_count(), 37);  // 9 steps of 4, plus the first
   EXPECT_EQ(resampled(turning({120, 1}, 10, 1), {60, 1}).frame_count(), 5);
   EXPECT_EQ(resampled(turning({120, 1}, 1, 1), {60, 1}).frame_count(), 1);
   EXPECT_EQ(resampled(turning({120, 1}, 0, 1), {60, 1}).frame_count(), 0);
   EXPECT_EQ(resampled(turning({30'000, 1001}, 31, 1), {30, 1}).frame_count(), 31);  // the last at 1.0 s of 1.001
 }
 
-TEST(Resampled, NearestTakesCapturedPosesOnly) {
+TEST(Resampled, NearestUsesCapturedPosesOnly) {
   const Motion motion = turning({10, 1}, 3, 1);
   const Motion made = resampled(motion, {40, 1}, RateMethod::nearest);
   std::vector<float> shown = made.tracks()[0].values;
   EXPECT_EQ(shown, (std::vector<float>{0, 0, 0, 1, 1, 1, 1, 2, 2}));
 }
 
-RC_GTEST_PROP(Resampled, AnEvenMovementStaysWhereItIsAtEachTime, ()) {
+RC_GTEST_PROP(Resampled, AUniformMovementIsUnchangedAtEachTime, ()) {
   const FrameRate from =
       *rc::gen::element(FrameRate{24, 1}, FrameRate{30'000, 1001}, FrameRate{100, 1}, FrameRate{120, 1});
   const FrameRate to =

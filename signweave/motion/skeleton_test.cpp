@@ -28,12 +28,12 @@ TEST(Skeleton, KnowsItsJointsByNameAndItsTranslationsByJoint) {
   EXPECT_EQ(skeleton.translation_of(99), std::nullopt);
 }
 
-TEST(Skeleton, FindsTheFirstOfJointsThatShareAName) {
+TEST(Skeleton, FindsTheFirstOfJointsWithTheSameName) {
   const Skeleton skeleton({joint("Hips", kNoJoint), joint("Site", 0), joint("Site", 1)}, {});
   EXPECT_EQ(skeleton.find("Site"), 1);
 }
 
-TEST(Skeleton, RefusesWhatIsNoTreeWithParentsFirst) {
+TEST(Skeleton, RefusesAllButTreesWithParentsFirst) {
   const auto make = [](std::vector<Joint> joints, std::vector<Tip> tips = {}) {
     return Skeleton(std::move(joints), std::move(tips));
   };
@@ -48,7 +48,7 @@ TEST(Skeleton, RefusesWhatIsNoTreeWithParentsFirst) {
   EXPECT_THROW(make(std::vector<Joint>(65'536, joint("A", 0))), Error);
 }
 
-TEST(Skeleton, RefusesOffsetsThatAreNoNumbers) {
+TEST(Skeleton, RefusesOffsetsThatAreNotFinite) {
   Joint wrong = joint("A", kNoJoint);
   wrong.offset.y() = std::numeric_limits<float>::quiet_NaN();
   EXPECT_THROW(Skeleton({wrong}, {}), Error);

@@ -1,6 +1,6 @@
-// Slerp of many joints at once. Plain loops over the numbers of the quaternions, which the compiler turns into vector
-// instructions: no branch, no call. Everything in single precision; against slerp in double precision the result is off
-// by less than 1e-6 radians (slerp_test.cpp).
+// Slerp of many joints at once. Plain loops over the components of the quaternions, which the compiler vectorises: no
+// branch, no call. All in single precision; the result differs from slerp in double precision by less than 1e-6 radians
+// (slerp_test.cpp).
 
 #include <algorithm>
 #include <cmath>
@@ -14,7 +14,7 @@ namespace {
 
 constexpr float kHalfPi = 1.57079632679f;
 
-/// Sine on [0, pi / 2]: the Taylor series to x^11, off by at most 6e-8.
+/// Sine on [0, pi / 2]: the Taylor series to x^11, with an error of at most 6e-8.
 [[gnu::always_inline]] inline float sine_first_quadrant(float x) noexcept {
   const float y = x * x;
   const float high = 2.7557319e-6f - y * 2.5052108e-8f;
@@ -26,7 +26,8 @@ constexpr float kHalfPi = 1.57079632679f;
   return sine_first_quadrant(kHalfPi - std::fabs(kHalfPi - x));
 }
 
-/// Arc cosine on [0, 1], off by at most 2e-8 (Abramowitz and Stegun, Handbook of Mathematical Functions, 4.4.46).
+/// Arc cosine on [0, 1], with an error of at most 2e-8 (Abramowitz and Stegun, Handbook of Mathematical Functions,
+/// 4.4.46).
 [[gnu::always_inline]] inline float arc_cosine(float x) noexcept {
   float p = -0.0012624911f;
   p = p * x + 0.0066700901f;
@@ -39,12 +40,13 @@ constexpr float kHalfPi = 1.57079632679f;
   return std::sqrt(1.0f - x) * p;
 }
 
-/// How near two quaternions may be: there the arc is a line within a float's precision, and its sine is still no zero.
+/// Limit of the cosine between two quaternions: at this distance the arc is a straight line within float precision, and
+/// its sine is still nonzero.
 constexpr float kNearest = 0.9999995f;
 
 enum class Arc { shorter, as_signed };
 
-/// The numbers of one quaternion.
+/// The components of one quaternion.
 struct Numbers {
   float x, y, z, w;
 };
@@ -54,7 +56,7 @@ template <Arc arc>
   const float dot = a.x * b.x + a.y * b.y + a.z * b.z + a.w * b.w;
   const float size = std::min(std::fabs(dot), kNearest);
   const float acute = arc_cosine(size);
-  // The longer arc only where it was asked for, and not where all ways round are as long.
+  // Takes the longer arc only if requested, and not if all arcs are equally long.
   const bool longer = arc == Arc::as_signed && dot < 0.0f && dot > -0.9995f;
   const float angle = longer ? 2.0f * kHalfPi - acute : acute;
   const float inverse = 1.0f / sine(angle);
@@ -92,10 +94,10 @@ template <Arc arc>
   }
 }
 
-/// A rotation turned on by half of a rotation vector.
+/// Returns a rotation turned further by half of a rotation vector.
 [[gnu::always_inline]] inline Numbers turned(Numbers q, float hx, float hy, float hz) noexcept {
   const float y = hx * hx + hy * hy + hz * hz;  // the half angle squared, at most (pi / 2)²
-  // Taylor series of cos h and sin h / h in h², off by at most 5e-7 and 6e-8.
+  // Taylor series of cos h and sin h / h in h², with errors of at most 5e-7 and 6e-8.
   const float w =
       1.0f + y * (-0.5f + y * (4.1666667e-2f + y * (-1.3888889e-3f + y * (2.4801587e-5f + y * -2.7557319e-7f))));
   const float high = 2.7557319e-6f - y * 2.5052108e-8f;
@@ -107,15 +109,15 @@ template <Arc arc>
           q.w * z + q.z * w + q.x * v - q.y * x, q.w * w - q.x * x - q.y * v - q.z * z};
 }
 
-/// So many joints are computed at a time, on the stack.
+/// The number of joints computed at a time, on the stack.
 constexpr std::size_t kBlock = 64;
 
-/// One array per number: what the compiler likes best.
+/// One array per component: the layout that vectorises best.
 struct Block {
   float x[kBlock], y[kBlock], z[kBlock], w[kBlock];
 };
 
-/// Pointers to one array per number of a side's joints.
+/// Pointers to one array per component of a side's joints.
 struct Side {
   const float *x, *y, *z, *w, *vx, *vy, *vz;
 

@@ -20,7 +20,7 @@ struct Pairs {
   std::vector<Quaternionf> a, b;
 };
 
-/// Pairs from touching to half a turn apart, on both hemispheres.
+/// Pairs from identical to half a turn apart, in both hemispheres.
 Pairs many_pairs(std::size_t count) {
   std::mt19937 random(7);
   std::normal_distribution<float> normal;
@@ -41,7 +41,7 @@ Quaterniond exact(const Quaternionf& a, const Quaternionf& b, double t, bool as_
   Quaterniond from = a.cast<double>().normalized();
   Quaterniond to = b.cast<double>().normalized();
   if (!as_signed && from.dot(to) < 0) to.coeffs() *= -1.0;
-  // From the chord, which is exact for small angles too.
+  // Computed from the chord, which is also exact for small angles.
   const double angle = 2.0 * std::atan2((from.coeffs() - to.coeffs()).norm(), (from.coeffs() + to.coeffs()).norm());
   if (angle < 1e-9) return from;
   return Quaterniond(Eigen::Vector4d((std::sin((1 - t) * angle) * from.coeffs() + std::sin(t * angle) * to.coeffs()) /
@@ -54,7 +54,7 @@ double angle_to_rounded(const Quaterniond& a, const Quaternionf& b) {
 }
 
 TEST(SlerpOfMany, IsWithinAMicroradianOfTheExactArc) {
-  const Pairs pairs = many_pairs(2'003);  // no multiple of a vector's width
+  const Pairs pairs = many_pairs(2'003);  // not a multiple of a vector's width
   std::vector<Quaternionf> out(pairs.a.size());
   for (const float t : {0.0f, 0.01f, 0.3f, 0.5f, 0.77f, 0.999f, 1.0f}) {
     slerp(pairs.a, pairs.b, t, out);
@@ -66,7 +66,7 @@ TEST(SlerpOfMany, IsWithinAMicroradianOfTheExactArc) {
   }
 }
 
-TEST(SlerpOfMany, TakesTheLongerArcWhereSignsSaySo) {
+TEST(SlerpOfMany, TakesTheLongerArcIfTheSignsRequireIt) {
   const Pairs pairs = many_pairs(2'003);
   std::vector<Quaternionf> out(pairs.a.size());
   std::size_t longer = 0;
@@ -74,9 +74,9 @@ TEST(SlerpOfMany, TakesTheLongerArcWhereSignsSaySo) {
     slerp_as_signed(pairs.a, pairs.b, t, out);
     for (std::size_t i = 0; i < out.size(); ++i) {
       const float dot = pairs.a[i].dot(pairs.b[i]);
-      if (dot < -0.9990f) continue;  // a whole turn apart: no way is better than another
+      if (dot < -0.9990f) continue;  // a whole turn apart: all arcs are equally long
       if (dot < 0) ++longer;
-      // Near a whole turn the direction hangs on the last bits of both.
+      // Near a whole turn the direction depends on the last bits of both.
       const double tolerance = dot < 0 ? 5e-6 / std::sqrt(1.0 - static_cast<double>(dot * dot)) : 1e-6;
       ASSERT_LT(angle_to_rounded(exact(pairs.a[i], pairs.b[i], static_cast<double>(t), true), out[i]), tolerance)
           << i << ' ' << t;
@@ -85,7 +85,7 @@ TEST(SlerpOfMany, TakesTheLongerArcWhereSignsSaySo) {
   EXPECT_GT(longer, 100u);
 }
 
-TEST(SlerpOfMany, MayWriteOverEitherSide) {
+TEST(SlerpOfMany, MayOverwriteEitherInput) {
   const Pairs pairs = many_pairs(61);
   std::vector<Quaternionf> apart(pairs.a.size());
   slerp(pairs.a, pairs.b, 0.4f, apart);
@@ -99,7 +99,7 @@ TEST(SlerpOfMany, MayWriteOverEitherSide) {
   }
 }
 
-TEST(SlerpCoasting, TurnsOnAndBlends) {
+TEST(SlerpCoasting, ContinuesTurningAndBlends) {
   const Pairs pairs = many_pairs(503);
   std::mt19937 random(9);
   std::uniform_real_distribution<float> uniform(-0.1f, 0.1f);
@@ -130,8 +130,8 @@ TEST(SlerpCoasting, TurnsOnAndBlends) {
   }
 }
 
-/// The loop that has an AVX2 form gives, to the bit, what the other form gives: this sum was made by SSE2, and the
-/// builds with sanitizers, which have no AVX2 form, hold it too.
+/// The AVX2 version of the loop gives the same bits as the other version: this sum was computed with SSE2, and the
+/// sanitizer builds, which have no AVX2 version, test it, too.
 TEST(SlerpCoasting, HasTheSameBitsOnEveryMachine) {
   std::uint32_t state = 1;
   const auto number = [&] {
@@ -141,7 +141,7 @@ TEST(SlerpCoasting, HasTheSameBitsOnEveryMachine) {
   std::vector<Quaternionf> a, b, out(131);
   std::vector<Eigen::Vector3f> left, right;
   for (std::size_t i = 0; i < out.size(); ++i) {
-    for (std::vector<Quaternionf>* rotations : {&a, &b}) {  // one draw after the other: arguments have no order
+    for (std::vector<Quaternionf>* rotations : {&a, &b}) {  // in this order: arguments have none
       Quaternionf& q = rotations->emplace_back();
       for (float& value : q.coeffs()) value = number();
     }

@@ -10,7 +10,7 @@ namespace {
 struct Name {
   AccessMode::Kind kind;
   std::string_view text;
-  bool cut_by_frame;  ///< takes a p
+  bool cut_by_frame;  ///< has a p
 };
 
 constexpr std::array kNames = {

@@ -5,7 +5,7 @@
 namespace signweave {
 namespace {
 
-TEST(AccessMode, EveryTextThatIsPrintedIsReadBack) {
+TEST(AccessMode, EveryPrintedTextParsesBack) {
   for (const char* text : {"full", "by_frame", "by_frame:64", "by_frame:1", "by_frame:4294967295", "by_joint",
                            "by_joint_and_frame", "by_joint_and_frame:253"}) {
     const std::optional<AccessMode> mode = parse_access_mode(text);
@@ -20,7 +20,7 @@ TEST(AccessMode, TheTextNamesKindAndFrames) {
   EXPECT_EQ(parse_access_mode("by_joint_and_frame"), (AccessMode{AccessMode::Kind::by_joint_and_frame, 0}));
 }
 
-TEST(AccessMode, AnyOtherTextIsNone) {
+TEST(AccessMode, AnyOtherTextIsRefused) {
   for (const char* text :
        {"", "Full", "full:1", "by_joint:1", "by_frame:", "by_frame:0", "by_frame:-1", "by_frame:+1", "by_frame: 1",
         "by_frame:1 ", "by_frame:1x", "by_frame:4294967296", "by_frame:1:2", "by_frame2", "by_fram", "by_joint_and"}) {

@@ -7,7 +7,8 @@ namespace signweave::motion_db {
 
 namespace {
 
-/// Whatever a joint carries, its rotation counts as if it moved a point so far away (metres): flesh, for example.
+/// The rotation of every joint that carries something counts as if it moved a point this far away (metres), such as
+/// flesh.
 constexpr float kLeastLever = 0.01f;
 /// The same for a joint that carries nothing.
 constexpr float kBareLever = 0.05f;
@@ -17,7 +18,7 @@ constexpr float kBareLever = 0.05f;
 Bones::Bones(const Skeleton& skeleton) {
   const std::size_t joints = skeleton.joint_count();
   std::vector<float> length(joints, 0.0f);
-  std::vector<float> ends(joints, 0.0f);  // ends of chains below
+  std::vector<float> ends(joints, 0.0f);  // the number of chain ends below
   std::vector<float> hanging(joints, 0.0f);
   middle.assign(joints, Eigen::Vector3f::Zero());
   below.resize(joints);
@@ -44,7 +45,8 @@ Bones::Bones(const Skeleton& skeleton) {
   for (std::size_t i = 0; i < joints; ++i) {
     if (hanging[i] > 0) middle[i] /= hanging[i];
   }
-  // Of what is to be shared by all chains that pass a joint, fewer bits are had by making it fine where many do.
+  // If an error budget is shared by all chains through a joint, fewer bits are needed if joints of many chains get
+  // finer steps.
   for (std::size_t i = 0; i < joints; ++i) {
     const float lever = std::max(length[i], length[i] > 0 ? kLeastLever : kBareLever);
     rotation_weight.push_back(0.5f / (lever * std::sqrt(ends[i])));

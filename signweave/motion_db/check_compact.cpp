@@ -1,4 +1,4 @@
-// What may be unpacked: sizes, places and widths in stored bytes are looked at here, once.
+// Checks a payload once before it is unpacked: sizes, places and widths in the stored bytes.
 
 #include <vector>
 
@@ -32,7 +32,7 @@ const char* compact_fault(ByteSpan payload, const Record& packet, Width width) {
     const std::size_t which = counts.order_bytes() + 4 * static_cast<std::size_t>(number - runs.first);
     if (loaded<std::uint32_t>(payload.data() + which) != at) return "a run of frames is not where it should be";
     const auto frames = static_cast<std::size_t>(frames_of_run(number, packet.frames).size());
-    // What lies behind the header is only pointed at here, and looked at once it is known to be there.
+    // The parts after the header are only pointed at here, and read once they are known to exist.
     if (end - at < kRunHeader) return "its size is wrong";
     const bool wide = loaded<std::uint16_t>(payload.data() + at + 4) != 0;
     const std::size_t raw_rotations = loaded<std::uint16_t>(payload.data() + at + 6);
@@ -52,10 +52,10 @@ const char* compact_fault(ByteSpan payload, const Record& packet, Width width) {
       if (numbers.width > 31) return "a number has too many bits";
       bits += numbers.width;
     }
-    if (bits != run.row_bits) return "a row has other bits than its numbers";
+    if (bits != run.row_bits) return "the bits of a row do not match its numbers";
     for (std::size_t i = 0; i < raw_rotations + raw_translations; ++i) {
       const std::size_t most = i >= raw_rotations ? counts.translations : counts.one_joint ? 65'535 : counts.rotations;
-      if (loaded<std::uint16_t>(run.raw_places + 2 * i) >= most) return "it has a joint that is none";
+      if (loaded<std::uint16_t>(run.raw_places + 2 * i) >= most) return "it has an invalid joint";
     }
     const std::size_t stream = stream_bytes(bits, counts.rows(frames));
     if (stream > end - at - fixed) return "its size is wrong";

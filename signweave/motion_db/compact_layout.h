@@ -6,27 +6,27 @@
 #include "signweave/motion_db/grid.h"
 #include "signweave/motion_db/packet.h"
 
-// The payload of a compact packet (docs/store.md has a worked example):
+// Layout of the payload of a compact packet (docs/store.md has a worked example):
 //
-//   u16 [joint]    which joint takes each place; only in a packet of all joints
-//   u32 [run]      where each run begins, from the payload's begin
-//   runs           of 16 frames, counted from the motion's frame 0: the first and the last may have fewer here
-//   32 bytes of 0, so that 16 bytes can be read at once wherever a number lies
+//   u16 [joint]    the joint in each place; only in a packet of all joints
+//   u32 [run]      the offset of each run from the start of the payload
+//   runs           of 16 frames, counted from the motion's frame 0: the first and the last may have fewer
+//   32 bytes of 0, so that 16 bytes can be read at once from any number
 //
 // A run:
-//   u32            bits of a row
+//   u32            bits per row
 //   u16            1: bases have 32 bits, 0: 16
-//   u16, u16       rotations and translations that are kept as they are
-//   groups         of four places (of one in a packet of one joint): base [3][place], u8 level [place],
+//   u16, u16       the numbers of rotations and translations that are stored raw
+//   groups         of four places (one in a packet of one joint): base [3][place], u8 level [place],
 //                  u8 form [place] (bits 0 and 1 the dropped component, bit 2 its sign), u16 widths (5 bits each)
 //   groups         of four numbers (one) of the translations [translation][3]: i32 base [number], u8 level [number],
 //                  u8 width
-//   u16 []         the places of the rotations, and the translations, that are kept as they are
+//   u16 []         the places of the rotations and the translations that are stored raw
 //   f32 []         their numbers, by frame: all rotations, then all translations
-//   stream         four lanes of u32 words in turns: word, lane. A row has for each group its three numbers less their
-//                  bases, then for each group of translations its one; the group's i-th place lies in lane i. Row r
-//                  begins at bit r · (bits of a row). In a packet of one joint lane and row are frame % 4 and frame
-//                  / 4.
+//   stream         four interleaved lanes of u32 words: word, lane. A row has for each group its three numbers minus
+//                  their bases, then for each group of translations its one; the group's i-th place lies in lane i.
+//                  Row r starts at bit r · (bits per row). In a packet of one joint lane and row are frame % 4 and
+//                  frame / 4.
 
 namespace signweave::motion_db {
 
@@ -41,7 +41,7 @@ T loaded(const std::byte* at) noexcept {
   return value;
 }
 
-/// The runs that some frames touch.
+/// The runs that contain some frames.
 struct Runs {
   std::int64_t first = 0;
   std::int64_t end = 0;
@@ -51,12 +51,12 @@ struct Runs {
   std::size_t count() const noexcept { return static_cast<std::size_t>(end - first); }
 };
 
-/// The frames of a run that a packet has.
+/// The frames of a run that lie in a packet.
 inline FrameRange frames_of_run(std::int64_t run, FrameRange packet) noexcept {
   return {std::max(packet.begin, run * kRunFrames), std::min(packet.end, (run + 1) * kRunFrames)};
 }
 
-/// How many there are of what lies in a packet's runs.
+/// The numbers and sizes of the elements of a packet's runs.
 struct Counts {
   bool one_joint = false;
   std::size_t rotations = 0;
@@ -64,7 +64,7 @@ struct Counts {
 
   Counts(const Record& packet, Width width) noexcept
       : one_joint(packet.part != kAllJoints), rotations(width.rotations), translations(width.translations) {}
-  /// Places in a group.
+  /// The number of places in a group.
   std::size_t in_group() const noexcept { return one_joint ? 1 : kLanes; }
   std::size_t rotation_groups() const noexcept { return (rotations + in_group() - 1) / in_group(); }
   std::size_t translation_groups() const noexcept { return (3 * translations + in_group() - 1) / in_group(); }
@@ -74,7 +74,7 @@ struct Counts {
   std::size_t rows(std::size_t frames) const noexcept { return one_joint ? (frames + kLanes - 1) / kLanes : frames; }
 };
 
-/// One run in a payload, by its parts.
+/// Pointers to the parts of one run in a payload.
 struct RunView {
   std::uint32_t row_bits = 0;
   bool wide = false;
@@ -99,12 +99,12 @@ struct RunView {
         stream(raw_values + frames * (16 * raw_rotations + 12 * raw_translations)) {}
 };
 
-/// The three widths of a group's kept numbers.
+/// The three widths of a group's stored numbers.
 inline std::array<std::uint32_t, 3> widths_of(std::uint16_t widths) noexcept {
   return {widths & 31u, widths >> 5 & 31u, widths >> 10 & 31u};
 }
 
-/// The parts of a group of rotations.
+/// Pointers to the parts of a group of rotations.
 struct RotationGroup {
   const std::byte* bases;  ///< [number][place]
   const std::byte* levels;
@@ -122,7 +122,7 @@ struct RotationGroup {
   }
 };
 
-/// The parts of a group of translations' numbers.
+/// Pointers to the parts of a group of translation components.
 struct NumberGroup {
   const std::byte* bases;
   const std::byte* levels;
@@ -134,7 +134,7 @@ struct NumberGroup {
         width(loaded<std::uint8_t>(levels + counts.in_group())) {}
 };
 
-/// The bytes of a run's stream.
+/// The size in bytes of a run's stream.
 inline std::size_t stream_bytes(std::uint64_t row_bits, std::size_t rows) noexcept {
   return static_cast<std::size_t>((row_bits * rows + 31) / 32) * 4 * kLanes;
 }

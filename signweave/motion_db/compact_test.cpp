@@ -10,7 +10,7 @@
 namespace signweave::motion_db {
 namespace {
 
-/// Some frames by way of a StoredSource.
+/// Reads some frames through a StoredSource.
 Motion read_source(const kv::KvStore& store, const StoredMotion& stored, FrameRange frames) {
   const std::shared_ptr<const kv::ReadTransaction> snapshot = store.read();
   const StoredSource source(snapshot, std::make_shared<KnownMotion>(*snapshot, stored));
@@ -33,7 +33,7 @@ StoredMotion put_compact(kv::KvStore& store, const Motion& motion, AccessMode mo
   return stored;
 }
 
-RC_GTEST_PROP(Compact, FromModeToModeNotABitIsLost, ()) {
+RC_GTEST_PROP(Compact, EveryModeIsLossless, ()) {
   static const TestStore store;
   const Motion motion = any_motion();
   const Motion quantised = *rc::gen::arbitrary<bool>() ? quantise(motion, 1e-4f) : motion;
@@ -65,7 +65,7 @@ RC_GTEST_PROP(Compact, AnyRangeOfAnyJointsIsTheSliceInMemory, ()) {
   erase(*store, stored);
 }
 
-TEST(Compact, NumbersThatAreOddComeBackToTheBit) {
+TEST(Compact, UnusualNumbersAreLossless) {
   const TestStore store;
   const Motion motion = test_motion(100, 7, 1, 3);
   for (const AccessMode::Kind kind : kAllKinds) {
@@ -89,7 +89,7 @@ TEST(Compact, QuantisedMotionIsSmallInEveryMode) {
   }
 }
 
-TEST(Compact, TheDescriptorSaysWhatWasPromised) {
+TEST(Compact, TheDescriptorContainsTheTolerance) {
   const Motion motion = test_motion(5);
   const StoredMotion stored = describe(motion, {AccessMode::Kind::by_frame, 0}, 3, 1e-4f);
   EXPECT_EQ(stored.mode.frames_per_packet % 16, 0u);
@@ -107,7 +107,7 @@ TEST(Compact, TheDescriptorSaysWhatWasPromised) {
   EXPECT_THROW(describe(motion, {}, 3, -1e-4f), Error);
 }
 
-TEST(Compact, APacketOfTheOtherLayoutIsAFault) {
+TEST(Compact, APacketWithTheOtherLayoutIsAFault) {
   const Motion motion = test_motion(5);
   const Record record{.kind = RecordKind::packet, .part = kAllJoints, .block = 0, .frames = {0, 5}};
   const Width width = width_of(motion.skeleton(), record);
@@ -119,7 +119,7 @@ TEST(Compact, APacketOfTheOtherLayoutIsAFault) {
   EXPECT_NE(fault_of(compact, 1, record, {width, Packing::plain}), nullptr);
 }
 
-/// A payload of just its size on the heap, so that a sanitizer sees what is read beyond.
+/// A payload of exact size on the heap, so that a sanitizer detects reads beyond it.
 void try_payload(const Bytes& payload, const Record& record, const Skeleton& skeleton) {
   const Bytes exact(payload.begin(), payload.end());
   if (compact_fault(exact, record, width_of(skeleton, record)) != nullptr) return;
@@ -130,7 +130,7 @@ void try_payload(const Bytes& payload, const Record& record, const Skeleton& ske
   unpack(exact, record, skeleton, last, {}, motion.poses({0, 1}));
 }
 
-TEST(Compact, NoDamagedByteIsReadOutOfBounds) {
+TEST(Compact, DamagedBytesCauseNoReadOutOfBounds) {
   std::mt19937 random(7);
   for (const Manner manner : {Manner::smooth, Manner::no_rotations, Manner::far_away}) {
     const Motion motion = quantise(random_motion(random, 6, 35, manner), 1e-4f);
@@ -153,7 +153,7 @@ TEST(Compact, NoDamagedByteIsReadOutOfBounds) {
   }
 }
 
-TEST(Compact, AWidthBeyondAllMasksIsAFault) {
+TEST(Compact, AWidthBeyondTheMasksIsAFault) {
   std::mt19937 random(9);
   Motion motion = random_motion(random, 1, 5, Manner::still);
   while (motion.skeleton().translation_count() == 0) motion = random_motion(random, 1, 5, Manner::still);
@@ -168,7 +168,7 @@ TEST(Compact, AWidthBeyondAllMasksIsAFault) {
   EXPECT_STREQ(compact_fault(payload, record, {1, 1}), "a number has too many bits");
 }
 
-TEST(Compact, EveryCutOrFlippedBitOfARecordIsNoticed) {
+TEST(Compact, EveryCutOrFlippedBitOfARecordIsDetected) {
   const TestStore store;
   const Motion motion = quantise(test_motion(20, 3, 5, 1), 1e-3f);
   for (const AccessMode::Kind kind : kAllKinds) {

@@ -10,16 +10,16 @@ namespace signweave::motion_db {
 
 namespace {
 
-/// The frames that a record and a question share.
-struct Shared {
+/// The frames that a record and a request have in common.
+struct SharedFrames {
   std::size_t from = 0;  ///< first, counted in the record
-  std::size_t to = 0;    ///< first, counted in what was asked for
+  std::size_t to = 0;    ///< first, counted in the request
   std::size_t count = 0;
 };
 
-Shared shared_frames(FrameRange has, FrameRange asked) {
-  const FrameRange both{std::max(has.begin, asked.begin), std::min(has.end, asked.end)};
-  return {static_cast<std::size_t>(both.begin - has.begin), static_cast<std::size_t>(both.begin - asked.begin),
+SharedFrames shared_frames(FrameRange has, FrameRange requested) {
+  const FrameRange both{std::max(has.begin, requested.begin), std::min(has.end, requested.end)};
+  return {static_cast<std::size_t>(both.begin - has.begin), static_cast<std::size_t>(both.begin - requested.begin),
           static_cast<std::size_t>(both.size())};
 }
 
@@ -35,9 +35,9 @@ const std::byte* translations_of(const Found& packet) {
          static_cast<std::size_t>(packet.record.frames.size()) * packet.layout.width.rotations * kRotation;
 }
 
-/// A packet of all joints: copies the frames that are asked for.
-void copy_all_joints(const Found& packet, FrameRange asked, MutablePoses out) {
-  const Shared shared = shared_frames(packet.record.frames, asked);
+/// Copies the requested frames from a packet of all joints.
+void copy_all_joints(const Found& packet, FrameRange requested, MutablePoses out) {
+  const SharedFrames shared = shared_frames(packet.record.frames, requested);
   const auto copy = [&](std::span<std::byte> to, const std::byte* from, std::size_t step) {
     if (step > 0) std::memcpy(to.data() + shared.to * step, from + shared.from * step, shared.count * step);
   };
@@ -46,10 +46,10 @@ void copy_all_joints(const Found& packet, FrameRange asked, MutablePoses out) {
        packet.layout.width.translations * kTranslation);
 }
 
-/// The same for some joints of a packet of all: neighbours at once.
-void copy_some_joints(const Found& packet, const Skeleton& skeleton, const JointSet& joints, FrameRange asked,
+/// The same for some joints of a packet of all joints: consecutive joints at once.
+void copy_some_joints(const Found& packet, const Skeleton& skeleton, const JointSet& joints, FrameRange requested,
                       MutablePoses out) {
-  const Shared shared = shared_frames(packet.record.frames, asked);
+  const SharedFrames shared = shared_frames(packet.record.frames, requested);
   const auto copy = [&](std::span<std::byte> to, const std::byte* from, std::size_t step, std::size_t at,
                         std::size_t size) {
     for (std::size_t i = 0; i < shared.count; ++i) {
@@ -69,8 +69,7 @@ void copy_some_joints(const Found& packet, const Skeleton& skeleton, const Joint
   }
 }
 
-/// One number of each of some frames, to be copied: where the first lies. In a packet of one joint they lie side by
-/// side.
+/// A value per frame to be copied: where the first one is. In a packet of one joint they are contiguous.
 struct Column {
   const std::byte* from = nullptr;
   std::byte* to = nullptr;
@@ -85,9 +84,9 @@ void copy_columns(std::span<const Column> columns, std::size_t to_step, std::siz
   }
 }
 
-/// Packets of one joint each and the same frames.
-void copy_joints(std::span<const Found> group, const Skeleton& skeleton, FrameRange asked, MutablePoses out) {
-  const Shared shared = shared_frames(group[0].record.frames, asked);
+/// Copies packets of one joint each over the same frames.
+void copy_joints(std::span<const Found> group, const Skeleton& skeleton, FrameRange requested, MutablePoses out) {
+  const SharedFrames shared = shared_frames(group[0].record.frames, requested);
   const std::size_t rotation_step = skeleton.joint_count() * kRotation;
   const std::size_t translation_step = skeleton.translation_count() * kTranslation;
   std::byte* const rotations = std::as_writable_bytes(out.rotations).data() + shared.to * rotation_step;
@@ -108,23 +107,23 @@ void copy_joints(std::span<const Found> group, const Skeleton& skeleton, FrameRa
 
 }  // namespace
 
-void copy_group(std::span<const Found> group, const Skeleton& skeleton, const JointSet& joints, FrameRange asked,
+void copy_group(std::span<const Found> group, const Skeleton& skeleton, const JointSet& joints, FrameRange requested,
                 MutablePoses out) {
   if (group[0].layout.packing == Packing::compact) {
     for (const Found& packet : group) {
-      unpack(packet.value.subspan(kHeaderSize), packet.record, skeleton, asked, joints, out);
+      unpack(packet.value.subspan(kHeaderSize), packet.record, skeleton, requested, joints, out);
     }
   } else if (group[0].record.part != kAllJoints) {
-    copy_joints(group, skeleton, asked, out);
+    copy_joints(group, skeleton, requested, out);
   } else if (joints.empty()) {
-    copy_all_joints(group[0], asked, out);
+    copy_all_joints(group[0], requested, out);
   } else {
-    copy_some_joints(group[0], skeleton, joints, asked, out);
+    copy_some_joints(group[0], skeleton, joints, requested, out);
   }
 }
 
-void copy_values(const Found& found, FrameRange asked, std::span<const std::span<float>> out) {
-  const Shared shared = shared_frames(found.record.frames, asked);
+void copy_values(const Found& found, FrameRange requested, std::span<const std::span<float>> out) {
+  const SharedFrames shared = shared_frames(found.record.frames, requested);
   const auto length = static_cast<std::size_t>(found.record.frames.size());
   for (std::size_t track = 0; track < out.size(); ++track) {
     if (out[track].empty()) continue;

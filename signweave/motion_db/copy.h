@@ -8,27 +8,27 @@
 #include "signweave/motion/motion.h"
 #include "signweave/motion_db/packet.h"
 
-/// Inside this module only: the numbers of records that were found and verified, copied to where they are wanted.
+/// Internal to this module: copies the numbers of records that were found and verified to their destination.
 namespace signweave::motion_db {
 
-/// A record that a read needs: its value lies in the buffer that it was read with, or in the snapshot.
+/// A record that a read needs. Its value lies in the buffer that it was read with, or in the snapshot.
 struct Found {
   Record record;
-  Layout layout;
+  RecordLayout layout;
   ByteSpan value;
 };
 
-/// Packets of one block that are held at once, each with a buffer of its own: eight joints of a frame are written side
-/// by side, two cache lines, where one by one each would fetch its line again.
+/// The number of packets of one block that are held at once, each with its own buffer: eight joints of a frame are
+/// adjacent and fill two cache lines, which would be fetched repeatedly if the joints were written one by one.
 inline constexpr std::size_t kTogether = 8;
 
-/// Copies what packets of one block, up to kTogether of them, hold of the frames and joints (empty: all) that are asked
-/// for. `out` is for all the frames asked for.
-void copy_group(std::span<const Found> group, const Skeleton& skeleton, const JointSet& joints, FrameRange asked,
+/// Copies the requested frames and joints (empty: all) from up to kTogether packets of one block. `out` holds all the
+/// requested frames.
+void copy_group(std::span<const Found> group, const Skeleton& skeleton, const JointSet& joints, FrameRange requested,
                 MutablePoses out);
 
-/// Copies what a record of scalar tracks holds of the frames that are asked for, to a span for each track; tracks whose
-/// span is empty are left out.
-void copy_values(const Found& found, FrameRange asked, std::span<const std::span<float>> out);
+/// Copies the requested frames from a record of scalar tracks to one span per track; tracks with an empty span are
+/// skipped.
+void copy_values(const Found& found, FrameRange requested, std::span<const std::span<float>> out);
 
 }  // namespace signweave::motion_db

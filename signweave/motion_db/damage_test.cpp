@@ -5,7 +5,7 @@
 #include "signweave/motion_db/packet.h"
 #include "signweave/motion_db/test_motion.h"
 
-/// Stored bytes are never trusted.
+/// Tests that stored bytes are never trusted.
 namespace signweave::motion_db {
 namespace {
 
@@ -38,14 +38,14 @@ void remove(kv::KvStore& store, const StoredMotion& stored, const Record& record
   change->commit();
 }
 
-/// A record whose bytes were changed on purpose, with a checksum that fits.
+/// A record with deliberately changed bytes and a matching checksum.
 Bytes sealed(Bytes value) {
   const std::uint64_t sum = checksum(ByteSpan(value).subspan(8));
   std::memcpy(value.data(), &sum, sizeof sum);
   return value;
 }
 
-/// The text of the Error{corrupt} that reading throws; "" where nothing was thrown.
+/// The text of the Error{corrupt} that reading throws; "" if nothing was thrown.
 std::string fault_in(const kv::KvStore& store, const StoredMotion& stored, FrameRange frames,
                      const JointSet& joints = {}) {
   const auto snapshot = store.read();
@@ -82,7 +82,7 @@ TEST_P(DamageTest, AFlippedBitNamesItsFramesAndLeavesOtherRangesReadable) {
   replace(*store_, stored, damaged, value);
   EXPECT_EQ(fault_in(*store_, stored, kFrames),
             "stored motion 71, all joints, frames [40, 50): its checksum is wrong; import the recording again "
-            "(--replace-motion) or restore the database from a copy");
+            "or restore the database from a copy");
   EXPECT_NE(fault_in(*store_, stored, {49, 51}), "");
   EXPECT_EQ(fault_in(*store_, stored, {0, 40}), "");
   EXPECT_EQ(fault_in(*store_, stored, {50, 100}), "");
@@ -100,7 +100,7 @@ TEST_P(DamageTest, AFlippedBitNamesItsJointAndLeavesOtherJointsReadable) {
   EXPECT_EQ(fault_in(*store_, stored, {0, 90}), "");
 }
 
-TEST_P(DamageTest, EveryFlippedBitOfEveryRecordIsNoticed) {
+TEST_P(DamageTest, EveryFlippedBitOfEveryRecordIsDetected) {
   const Motion small = test_motion(2, 2, 5, 1);
   for (const AccessMode::Kind kind : kAllKinds) {
     const StoredMotion stored = describe(small, {kind, 1}, ++generation_);
@@ -114,7 +114,7 @@ TEST_P(DamageTest, EveryFlippedBitOfEveryRecordIsNoticed) {
       for (std::size_t bit = 0; bit < sound.size() * 8; bit += 3) {
         Bytes value = sound;
         value[bit / 8] ^= static_cast<std::byte>(1 << bit % 8);
-        const auto change = store_->write();  // never committed: a transaction reads what it put
+        const auto change = store_->write();  // never committed: a transaction sees its own puts
         change->put(key_of(stored.generation, record), value);
         EXPECT_EQ(check(*change, stored).size(), 1u) << to_string(stored.mode) << " bit " << bit;
         EXPECT_THROW(read(*change, stored, read_skeleton(*change, stored), {0, 2}), Error);
@@ -142,7 +142,7 @@ TEST_P(DamageTest, ValuesOfEveryWrongSizeAreFaultsNotOverflows) {
   }
 }
 
-TEST_P(DamageTest, AHeaderThatLiesIsAFaultThoughItsChecksumFits) {
+TEST_P(DamageTest, AWrongHeaderIsAFaultEvenWithAMatchingChecksum) {
   const StoredMotion stored = put_as({AccessMode::Kind::by_joint_and_frame, 10});
   const Record record = packet(1, 2, {20, 30});
   const Bytes sound = value_of(*store_, stored, record);
@@ -156,10 +156,10 @@ TEST_P(DamageTest, AHeaderThatLiesIsAFaultThoughItsChecksumFits) {
   }
 }
 
-TEST_P(DamageTest, APacketInAnothersPlaceIsAFault) {
+TEST_P(DamageTest, APacketUnderAnothersKeyIsAFault) {
   const StoredMotion stored = put_as({AccessMode::Kind::by_frame, 10});
   replace(*store_, stored, packet(kAllJoints, 3, {30, 40}), value_of(*store_, stored, packet(kAllJoints, 5, {50, 60})));
-  EXPECT_THAT(fault_in(*store_, stored, {35, 36}), HasSubstr("frames [30, 40): another record lies in its place"));
+  EXPECT_THAT(fault_in(*store_, stored, {35, 36}), HasSubstr("frames [30, 40): another record is in its place"));
 }
 
 TEST_P(DamageTest, CheckListsEveryFaultWithJointsAndFrames) {
@@ -176,7 +176,7 @@ TEST_P(DamageTest, CheckListsEveryFaultWithJointsAndFrames) {
                           "stored motion 71, scalar tracks, frames [0, 100): it is cut short"));
 }
 
-TEST_P(DamageTest, ADamagedSkeletonIsOneFaultAndPacketsAreCheckedAllTheSame) {
+TEST_P(DamageTest, ADamagedSkeletonIsOneFaultAndPacketsAreStillChecked) {
   for (const AccessMode::Kind kind : kAllKinds) {
     const StoredMotion stored = put_as({kind, 30});
     Bytes value = value_of(*store_, stored, Record{});
@@ -189,7 +189,7 @@ TEST_P(DamageTest, ADamagedSkeletonIsOneFaultAndPacketsAreCheckedAllTheSame) {
   }
 }
 
-TEST_P(DamageTest, ASkeletonRecordThatLiesIsAnErrorNotAHugeAllocation) {
+TEST_P(DamageTest, AWrongSkeletonRecordIsAnErrorNotAHugeAllocation) {
   const StoredMotion stored = put_as({});
   const Bytes sound = value_of(*store_, stored, Record{});
   for (std::size_t at = kHeaderSize; at < sound.size(); ++at) {
@@ -198,7 +198,7 @@ TEST_P(DamageTest, ASkeletonRecordThatLiesIsAnErrorNotAHugeAllocation) {
     const auto change = store_->write();
     change->put(key_of(stored.generation, Record{}), sealed(value));
     try {
-      read_skeleton(*change, stored);  // a name or an offset may well be another and sound
+      read_skeleton(*change, stored);  // a name or an offset may differ and still be valid
     } catch (const Error& error) {
       EXPECT_EQ(error.code(), ErrorCode::corrupt) << error.what();
     }
@@ -222,16 +222,16 @@ StoredMotion some_descriptor() {
   return describe(test_motion(100, 6, 1, 3), {AccessMode::Kind::by_joint_and_frame, 12}, 0x1122334455667788);
 }
 
-TEST(StoredMotion, ComesBackAsItWas) {
+TEST(StoredMotion, RoundTrips) {
   ByteWriter out;
   encode(some_descriptor(), out);
   out.number(std::uint8_t{9});
   ByteReader in(out.bytes(), "record");
   EXPECT_EQ(decode(in), some_descriptor());
-  EXPECT_EQ(in.left(), 1u) << "what follows is the caller's";
+  EXPECT_EQ(in.left(), 1u) << "the following bytes belong to the caller";
 }
 
-TEST(StoredMotion, CutOrChangedBytesAreAnErrorOrAnotherSaneDescriptor) {
+TEST(StoredMotion, CutOrChangedBytesAreAnErrorOrAnotherValidDescriptor) {
   ByteWriter out;
   encode(some_descriptor(), out);
   for (std::size_t size = 0; size < out.size(); ++size) {
@@ -255,7 +255,7 @@ TEST(StoredMotion, CutOrChangedBytesAreAnErrorOrAnotherSaneDescriptor) {
   }
 }
 
-TEST(StoredMotion, ANewerLayoutSaysWhatWouldMendIt) {
+TEST(StoredMotion, ANewerLayoutIsAnErrorThatSuggestsAFix) {
   ByteWriter out;
   encode(some_descriptor(), out);
   Bytes bytes = out.take();
@@ -270,13 +270,13 @@ TEST(StoredMotion, ANewerLayoutSaysWhatWouldMendIt) {
   }
 }
 
-TEST_P(DamageTest, OfAThousandRecordsNamesNoMore) {
+TEST_P(DamageTest, ListsNoMoreThanAThousandFaults) {
   const Motion motion = test_motion(1'500, 3);
   const StoredMotion stored = put_motion(*store_, motion, {AccessMode::Kind::by_frame, 1});
   erase(*store_, stored);
   const std::vector<std::string> faults = check(*store_->read(), stored);
   ASSERT_EQ(faults.size(), 1'001u);
-  EXPECT_THAT(faults.back(), testing::HasSubstr("more faults than these"));
+  EXPECT_THAT(faults.back(), testing::HasSubstr("more faults than listed"));
 }
 
 }  // namespace

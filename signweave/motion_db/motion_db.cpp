@@ -8,11 +8,11 @@ namespace signweave::motion_db {
 
 namespace {
 
-// One transaction is kept this small, because it lies in memory whole, and a commit blocks other writers.
+// The limits of one transaction, because it is in memory as a whole and a commit blocks other writers.
 constexpr std::size_t kMostPuts = 512;
 constexpr std::size_t kMostBytes = std::size_t{16} << 20;
 
-/// Changes in transactions of bounded size.
+/// Applies changes in transactions of bounded size.
 class BoundedChange {
  public:
   BoundedChange(kv::KvStore& store, std::uint64_t records, std::function<void(double)> progress)
@@ -29,7 +29,7 @@ class BoundedChange {
   }
   void flush() {
     if (transaction_ && changed_) transaction_->commit();
-    transaction_.reset();  // before `progress`, which must not wait while other writers wait for us
+    transaction_.reset();  // before `progress`, which must not wait while other writers wait for this transaction
     changed_ = false;
     steps_ = 0;
     bytes_ = 0;

@@ -12,7 +12,7 @@ namespace {
 
 using testing::HasSubstr;
 
-/// What must hold on every engine of this build.
+/// Tests that must pass on every engine of this build.
 class MotionDbTest : public testing::TestWithParam<std::string> {
  protected:
   TestStore store_{GetParam()};
@@ -21,7 +21,7 @@ class MotionDbTest : public testing::TestWithParam<std::string> {
 INSTANTIATE_TEST_SUITE_P(Engines, MotionDbTest, testing::ValuesIn(kv::engines()),
                          [](const auto& row) { return row.param; });
 
-TEST_P(MotionDbTest, EveryModeGivesBackTheMotionToTheBit) {
+TEST_P(MotionDbTest, EveryModeIsLossless) {
   const Motion motion = test_motion(2'100, 7, 1, 3);
   std::uint64_t generation = 0;
   for (const AccessMode::Kind kind : kAllKinds) {
@@ -44,7 +44,7 @@ TEST_P(MotionDbTest, AfterEraseNothingIsLeft) {
   }
 }
 
-TEST_P(MotionDbTest, AMotionHalfWrittenIsErasedWhole) {
+TEST_P(MotionDbTest, APartlyWrittenMotionIsErasedCompletely) {
   const Motion motion = test_motion(3'000, 4, 1, 1);
   const StoredMotion stored = describe(motion, {AccessMode::Kind::by_frame, 1}, 9);
   struct Cancelled {};
@@ -59,7 +59,7 @@ TEST_P(MotionDbTest, AMotionHalfWrittenIsErasedWhole) {
   EXPECT_EQ(store_->info().entries, 0u);
 }
 
-TEST_P(MotionDbTest, MotionsOfOtherGenerationsAreLeftAlone) {
+TEST_P(MotionDbTest, MotionsOfOtherGenerationsAreUnchanged) {
   const Motion first = test_motion(40, 5, 1);
   const Motion second = test_motion(60, 5, 2);
   const StoredMotion a = put_motion(*store_, first, {}, 256);
@@ -97,7 +97,7 @@ TEST_P(MotionDbTest, AnyRangeOfAnyJointsIsTheSliceInMemory) {
   }));
 }
 
-TEST(MotionDb, PacketCountsAreThePapers) {
+TEST(MotionDb, PacketCountsMatchThePaper) {
   const Motion motion = test_motion(100, 6);
   const auto count = [&](AccessMode::Kind kind, std::uint32_t p) {
     return packet_count(describe(motion, {kind, p}, 1));
@@ -111,7 +111,7 @@ TEST(MotionDb, PacketCountsAreThePapers) {
   EXPECT_EQ(count(AccessMode::Kind::by_joint_and_frame, 1), 600u);
 }
 
-TEST_P(MotionDbTest, AReadFetchesOnlyThePacketsThatHoldWhatWasAsked) {
+TEST_P(MotionDbTest, AReadFetchesOnlyTheRequestedPackets) {
   const Motion motion = test_motion(100, 6, 1, 1);
   struct Row {
     AccessMode mode;
@@ -143,17 +143,17 @@ TEST_P(MotionDbTest, AReadFetchesOnlyThePacketsThatHoldWhatWasAsked) {
   }
 }
 
-TEST_P(MotionDbTest, TheCostInBytesIsThatOfTheRecordsFetched) {
+TEST_P(MotionDbTest, TheCostInBytesCoversTheFetchedRecords) {
   const Motion motion = test_motion(100, 6, 1, 1);  // two of the six joints are translated
   const StoredMotion stored = put_motion(*store_, motion, {AccessMode::Kind::by_frame, 10});
   ReadCost cost;
   read_back(*store_, stored, {15, 25}, {1}, &cost);
   EXPECT_EQ(cost.bytes, 2u * (32 + 10 * (6 * 16 + 2 * 12)));
   read_back(*store_, stored, {15, 25}, {}, &cost);
-  EXPECT_EQ(cost.bytes, 2u * (32 + 10 * (6 * 16 + 2 * 12)) + (32 + 100 * 4)) << "and the one record of tracks";
+  EXPECT_EQ(cost.bytes, 2u * (32 + 10 * (6 * 16 + 2 * 12)) + (32 + 100 * 4)) << "plus the one record of tracks";
 }
 
-TEST_P(MotionDbTest, JointsThatWereNotAskedForAreAtRestAndTracksStayAway) {
+TEST_P(MotionDbTest, OtherJointsAreAtRestAndTracksAreOmitted) {
   const Motion motion = test_motion(20, 5, 1, 2);
   for (const AccessMode::Kind kind : kAllKinds) {
     const StoredMotion stored = put_motion(*store_, motion, {kind, 6}, static_cast<std::uint64_t>(kind));
@@ -166,7 +166,7 @@ TEST_P(MotionDbTest, JointsThatWereNotAskedForAreAtRestAndTracksStayAway) {
   }
 }
 
-TEST_P(MotionDbTest, TheSkeletonComesBackWholeAndMotionsShareIt) {
+TEST_P(MotionDbTest, TheSkeletonIsCompleteAndShared) {
   const Motion motion = test_motion(3, 9);
   const StoredMotion stored = put_motion(*store_, motion, {});
   const auto snapshot = store_->read();
@@ -191,24 +191,24 @@ TEST(MotionDb, DefaultPacketsFillPagesOfTheEngine) {
   EXPECT_EQ(describe(huge, {AccessMode::Kind::by_frame, 0}, 1).mode.frames_per_packet, 1u);
 }
 
-TEST(MotionDb, OfAHandInASignAtMostTwiceTheBytesAskedForAreRead) {
+TEST(MotionDb, ReadingAHandInASignFetchesAtMostTwiceTheRequestedBytes) {
   const TestStore store;
   const Motion motion = test_motion(1'000, 20);
   const StoredMotion stored = put_motion(*store, motion, {AccessMode::Kind::by_joint_and_frame, 0});
   const JointSet turned = {1, 2, 4, 5, 7};
   for (const std::int64_t length : {65, 100, 150}) {
-    double read = 0, asked = 0;
+    double read = 0, requested = 0;
     for (std::int64_t begin = 0; begin + length <= 1'000; begin += 7) {
       ReadCost cost;
       read_back(*store, stored, {begin, begin + length}, turned, &cost);
       read += static_cast<double>(cost.bytes);
-      asked += static_cast<double>(length) * static_cast<double>(turned.size()) * 16;
+      requested += static_cast<double>(length) * static_cast<double>(turned.size()) * 16;
     }
-    EXPECT_LE(read / asked, 2.0) << length << " frames";
+    EXPECT_LE(read / requested, 2.0) << length << " frames";
   }
 }
 
-TEST(MotionDb, WhatCannotBeStoredIsRefusedWithAMend) {
+TEST(MotionDb, UnstorableMotionsAreRefusedWithAFix) {
   const auto refusal = [](const std::function<void()>& action) -> std::string {
     try {
       action();
@@ -229,12 +229,12 @@ TEST(MotionDb, WhatCannotBeStoredIsRefusedWithAMend) {
   EXPECT_THAT(refusal([&] {
                 check_packet_size(of_size({AccessMode::Kind::full, 0}, 6'000'000));
               }),
-              HasSubstr("a packet of full would have 4852 MiB and 4095 is the most; store it by_frame"));
+              HasSubstr("a packet of full would have 4852 MiB, more than the limit of 4095; store it by_frame"));
   check_packet_size(of_size({AccessMode::Kind::by_joint, 0}, 6'000'000));
   check_packet_size(of_size({AccessMode::Kind::by_frame, 4'000'000'000u}, 1'000));
 }
 
-TEST_P(MotionDbTest, AskingForWhatIsNotThereNamesWhatIs) {
+TEST_P(MotionDbTest, ARequestOutOfRangeNamesTheValidRange) {
   const Motion motion = test_motion(20, 5);
   const StoredMotion stored = put_motion(*store_, motion, {});
   for (const FrameRange frames : {FrameRange{-1, 3}, FrameRange{3, 21}, FrameRange{5, 3}}) {
@@ -264,7 +264,7 @@ TEST_P(MotionDbTest, ProgressRisesToOne) {
   EXPECT_EQ(seen.back(), 1.0);
 }
 
-/// Passes everything on and counts what one transaction holds.
+/// Forwards everything and counts the size of each transaction.
 class CountingStore final : public kv::KvStore {
  public:
   explicit CountingStore(kv::KvStore& store) : store_(store) {}
@@ -328,7 +328,7 @@ TEST_P(MotionDbTest, TransactionsAreBoundedAndNoneIsOpenDuringProgress) {
 
   const Motion large = test_motion(12'000, 100);  // 24 MB
   put(counting, describe(large, {AccessMode::Kind::by_frame, 1'000}, 2), large);
-  EXPECT_LE(counting.most_bytes, std::size_t{16 + 2} << 20) << "16 MiB, and the packet that goes past it";
+  EXPECT_LE(counting.most_bytes, std::size_t{16 + 2} << 20) << "16 MiB, plus the packet that exceeds it";
 }
 
 }  // namespace

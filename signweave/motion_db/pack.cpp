@@ -1,4 +1,4 @@
-// Packing: for each joint and run of frames, the smallest form that gives the same bits.
+// Packing: finds, for each joint and run of frames, the smallest form that gives the same bits.
 
 #include <algorithm>
 #include <bit>
@@ -15,10 +15,10 @@ bool same_bits(float a, float b) noexcept {
   return std::bit_cast<std::uint32_t>(a) == std::bit_cast<std::uint32_t>(b);
 }
 
-/// Whole numbers beyond this are not looked for: their products with a step are not exact.
+/// Larger whole numbers are not used: their products with a step are not exact.
 constexpr float kMostSteps = 2'097'152.0f;
 
-/// The multiple of a step that a value is, to the bit.
+/// Returns the multiple of a step that equals a value to the bit, if there is one.
 struct Multiple {
   std::int32_t steps = 0;
   bool is = false;
@@ -30,7 +30,7 @@ Multiple multiple_of(float value, float step, float inverse) noexcept {
   return {whole, same_bits(static_cast<float>(whole) * step, value)};
 }
 
-/// Steps over a run: base, and bits for what lies above it.
+/// The range of multiples over a run: base, and the number of bits above it.
 struct Range {
   std::int32_t base = 0;
   std::uint32_t width = 0;
@@ -40,12 +40,12 @@ Range range_of(std::span<const std::int32_t> steps) noexcept {
   return {low, static_cast<std::uint32_t>(std::bit_width(static_cast<std::uint32_t>(high - low)))};
 }
 
-/// Numbers over a run on the coarsest grid that has them all.
+/// Finds the coarsest grid that contains all numbers over a run.
 struct Gridded {
   bool found = false;
   int level = 0;
 };
-/// `values` is [number][frame] and `steps` gets the multiples.
+/// `values` is [number][frame]; `steps` receives the multiples.
 Gridded find_grid(std::span<const float> values, std::span<std::int32_t> steps) noexcept {
   for (int level = kCoarsestLevel; level >= 0; --level) {
     const float step = step_of(level);
@@ -63,13 +63,13 @@ Gridded find_grid(std::span<const float> values, std::span<std::int32_t> steps) 
 
 constexpr std::size_t kMostFrames = static_cast<std::size_t>(kRunFrames);
 
-/// A joint's rotations over a run.
+/// A joint's packed rotations over a run.
 struct PackedRotation {
   bool raw = true;
   std::uint8_t level = 0;
   Dropped dropped;
   std::array<Range, 3> ranges;
-  std::array<std::int32_t, 3 * kMostFrames> steps{};  ///< [kept number][frame]
+  std::array<std::int32_t, 3 * kMostFrames> steps{};  ///< [stored number][frame]
 };
 
 PackedRotation pack_rotation(std::span<const Eigen::Quaternionf> values) {
@@ -99,7 +99,7 @@ PackedRotation pack_rotation(std::span<const Eigen::Quaternionf> values) {
   return packed;
 }
 
-/// One number of a translation over a run.
+/// One packed component of a translation over a run.
 struct PackedNumber {
   bool raw = true;
   std::uint8_t level = 0;
@@ -120,11 +120,11 @@ PackedNumber pack_number(std::span<const float> values) {
 /// A run, packed joint by joint and number by number.
 struct PackedRun {
   FrameRange frames;
-  std::vector<PackedRotation> rotations;   ///< [joint], of one joint one
+  std::vector<PackedRotation> rotations;   ///< [joint]; one element in a packet of one joint
   std::vector<PackedNumber> translations;  ///< [translation][3]
 };
 
-/// Four streams of bits, a word of each in turns.
+/// Writes four bit streams, interleaved word by word.
 class LaneWriter {
  public:
   explicit LaneWriter(std::size_t bytes) : bytes_(bytes) {}
@@ -146,7 +146,7 @@ class LaneWriter {
   Bytes bytes_;
 };
 
-/// What a packet has of the motion.
+/// Packs a packet's part of the motion.
 class Packer {
  public:
   Packer(const Motion& motion, const Record& packet)
@@ -188,7 +188,7 @@ PackedRun Packer::pack_run(FrameRange frames) const {
       }
       numbers[c] = pack_number(std::span(values).first(count));
     }
-    // Kept as it is or not as a whole.
+    // A translation is stored raw as a whole or not at all.
     const bool raw = numbers[0].raw || numbers[1].raw || numbers[2].raw;
     for (PackedNumber& number : numbers) {
       if (raw) number = PackedNumber{};
@@ -198,12 +198,12 @@ PackedRun Packer::pack_run(FrameRange frames) const {
   return run;
 }
 
-/// Joints whose numbers need as many bits go together, for those of a group have one width. Each group begins with the
-/// joint that needs most, and takes those that widen it least.
+/// Groups joints whose numbers need similar numbers of bits, because those of a group have one width. Each group begins
+/// with the joint that needs most and takes those that widen it least.
 std::vector<std::uint16_t> Packer::order_of(std::span<const PackedRun> runs) const {
   std::vector<std::uint16_t> left(counts_.rotations);
   std::iota(left.begin(), left.end(), std::uint16_t{0});
-  // [joint][run][kept number]
+  // [joint][run][stored number]
   const auto width = [&](std::size_t joint, std::size_t at) {
     return runs[at / 3].rotations[joint].ranges[at % 3].width;
   };
@@ -219,7 +219,7 @@ std::vector<std::uint16_t> Packer::order_of(std::span<const PackedRun> runs) con
     return run.rotations[joint].dropped.component == 3;
   };
   constexpr std::uint32_t kExchangeWaste = 2;
-  // In skeletons of very many joints only those that need about as much are looked at.
+  // In skeletons with very many joints only those with similar needs are examined.
   constexpr std::size_t kLookAhead = 128;
   while (!left.empty()) {
     std::ranges::fill(most, 0);
@@ -227,13 +227,13 @@ std::vector<std::uint16_t> Packer::order_of(std::span<const PackedRun> runs) con
       std::size_t best = 0;
       std::uint32_t least = 0;
       for (std::size_t i = 0; i < std::min(left.size(), kLookAhead) && lane > 0; ++i) {
-        // Bits wasted: the group's widening, and what the joint leaves unused.
+        // Wasted bits: the group's widening, and what the joint leaves unused.
         std::uint32_t waste = 0;
         for (std::size_t at = 0; at < widths; ++at) {
           const std::uint32_t own = width(left[i], at);
           waste += own > most[at] ? (own - most[at]) * static_cast<std::uint32_t>(lane) : most[at] - own;
         }
-        // A group of which w was dropped everywhere unpacks faster: that is worth a few bits.
+        // A group in which w was dropped everywhere unpacks faster: that is worth a few bits.
         for (const PackedRun& run : runs) {
           const bool alike = drops_w(run, left[i]) == drops_w(run, order.back());
           waste += alike ? 0 : kExchangeWaste;
@@ -286,7 +286,7 @@ void Packer::write_run(const PackedRun& run, ByteWriter& out) const {
   }
   for (std::size_t at = 0; at < counts_.translations; ++at) raw_translations += run.translations[3 * at].raw ? 1 : 0;
 
-  // Widths of the groups, and where each group's bits begin in a row.
+  // The widths of the groups, and the position of each group's bits in a row.
   std::vector<std::array<std::uint32_t, 3>> rotation_widths(counts_.rotation_groups());
   std::vector<std::uint32_t> translation_widths(counts_.translation_groups());
   for (std::size_t place = 0; place < order_.size(); ++place) {
@@ -369,7 +369,7 @@ void Packer::write_run(const PackedRun& run, ByteWriter& out) const {
 Bytes Packer::packed() {
   const Runs runs(packet_.frames);
   const auto run_at = [&](std::int64_t run) { return pack_run(frames_of_run(run, packet_.frames)); };
-  // The order is chosen by some of the runs, so that a packet of any length is packed in little memory.
+  // The order is chosen from a sample of the runs, so that a packet of any length is packed in little memory.
   constexpr std::int64_t kMostLookedAt = 64;
   const std::int64_t stride = (runs.end - runs.first + kMostLookedAt - 1) / kMostLookedAt;
   std::vector<PackedRun> some;

@@ -11,19 +11,20 @@
 //    0  u64  checksum: XXH3-64 of all the bytes that follow
 //    8  u64  generation
 //   16  u8   kind of record
-//   17  u8   version of this layout: 1, of compact packets 2
+//   17  u8   version of this layout: 1, or 2 for compact packets
 //   18  u16  joint of a packet (0xFFFF: all joints); else 0
 //   20  u32  first frame
 //   24  u32  frames
-//   28  u16  rotations a frame; of scalar tracks their number
-//   30  u16  translations a frame
+//   28  u16  rotations per frame; for scalar tracks their number
+//   30  u16  translations per frame
 //   32       payload
 //
 // A plain packet's payload is all its rotations, then all its translations, each by frame and within a frame by joint:
 // rotations [frame][joint] of f32 x, y, z, w, and translations [frame][translated joint] of f32 x, y, z in metres. So
-// any stretch of its frames is two runs of bytes, and with all joints they lie just as in a Motion: two copies.
-// The payload of scalar tracks is one f32 by track and within a track by frame. A skeleton's: u32 joints, each a text,
-// i32 parent, f32 x, y, z, u8 translated; u32 tips, each an i32 joint, f32 x, y, z. Compact packets: compact_layout.h.
+// any range of its frames is two contiguous ranges of bytes, and with all joints their order is that of a Motion: two
+// copies suffice. The payload of scalar tracks is f32 values by track and within a track by frame. A skeleton's payload
+// is: u32 joints, each a text, i32 parent, f32 x, y, z, u8 translated; u32 tips, each an i32 joint, f32 x, y, z.
+// Compact packets: compact_layout.h.
 
 namespace signweave::motion_db {
 
@@ -31,9 +32,9 @@ namespace {
 
 static_assert(sizeof(Eigen::Quaternionf) == 16 && sizeof(Eigen::Vector3f) == 12, "packets hold their bytes");
 
-Bytes begin_record(std::uint64_t generation, const Record& record, Layout layout, std::size_t payload) {
+Bytes begin_record(std::uint64_t generation, const Record& record, RecordLayout layout, std::size_t payload) {
   ByteWriter header;
-  header.number(std::uint64_t{0});  // the checksum, see `seal`
+  header.number(std::uint64_t{0});  // placeholder for the checksum, see `seal`
   header.number(generation);
   header.number(record.kind);
   header.number(layout.packing);
@@ -64,8 +65,8 @@ T number_at(ByteSpan bytes, std::size_t at) {
   return value;
 }
 
-/// Most significant byte first, so that engines with ordered keys lay a motion's records side by side, in the order in
-/// which they are written. Gives the place after the number.
+/// Writes a number with the most significant byte first, so that engines with ordered keys store a motion's records
+/// next to each other in writing order. Returns the position after the number.
 template <typename T>
 std::byte* put_ordered(std::byte* at, T value) {
   for (int shift = 8 * (static_cast<int>(sizeof(T)) - 1); shift >= 0; shift -= 8) {
@@ -115,7 +116,7 @@ Packing packing_of(const StoredMotion& stored) noexcept {
   return stored.tolerance > 0 ? Packing::compact : Packing::plain;
 }
 
-bool can_have_size(const Record& record, Layout layout, std::size_t bytes) noexcept {
+bool can_have_size(const Record& record, RecordLayout layout, std::size_t bytes) noexcept {
   if (layout.packing == Packing::plain) return bytes == value_size(record, layout.width);
   return bytes >= kHeaderSize + smallest_payload(record, layout.width);
 }
@@ -246,13 +247,13 @@ const char* fault_of(ByteSpan value, std::uint64_t generation, const Record& rec
   if (number_at<std::uint64_t>(value, 0) != checksum(value.subspan(sizeof(std::uint64_t)))) {
     return "its checksum is wrong";
   }
-  if (number_at<Packing>(value, 17) != packing) return "it has a layout that this version does not know";
+  if (number_at<Packing>(value, 17) != packing) return "it has a layout that this version does not support";
   if (number_at<std::uint64_t>(value, 8) != generation || number_at<RecordKind>(value, 16) != record.kind ||
       number_at<std::uint16_t>(value, 18) != record.part ||
       number_at<std::uint32_t>(value, 20) != static_cast<std::uint32_t>(record.frames.begin) ||
       number_at<std::uint32_t>(value, 24) != static_cast<std::uint32_t>(record.frames.size()) ||
       stored_width != *width) {
-    return "another record lies in its place";
+    return "another record is in its place";
   }
   if (packing == Packing::compact) return compact_fault(value.subspan(kHeaderSize), record, *width);
   return nullptr;

@@ -52,7 +52,7 @@ std::string documented(const std::string& name) {
   return digits;
 }
 
-TEST(StoreDocument, ItsBytesAreTheEncoders) {
+TEST(StoreDocument, ItsBytesMatchTheEncoder) {
   const Motion motion = example();
   const StoredMotion stored = describe(motion, {AccessMode::Kind::by_frame, 2}, 7);
   const Record packet{.kind = RecordKind::packet, .part = kAllJoints, .block = 0, .frames = {0, 2}};
@@ -66,7 +66,7 @@ TEST(StoreDocument, ItsBytesAreTheEncoders) {
   EXPECT_EQ(documented("descriptor"), hex(out.bytes()));
 }
 
-TEST(StoreDocument, ItsCompactBytesAreTheEncoders) {
+TEST(StoreDocument, ItsCompactBytesMatchTheEncoder) {
   const Motion motion = quantise(example(), 0.001f);
   const StoredMotion stored = describe(motion, {AccessMode::Kind::by_frame, 16}, 7, 0.001f);
   const Record packet{.kind = RecordKind::packet, .part = kAllJoints, .block = 0, .frames = {0, 3}};
@@ -78,7 +78,7 @@ TEST(StoreDocument, ItsCompactBytesAreTheEncoders) {
   EXPECT_EQ(documented("compact descriptor"), hex(out.bytes()));
 }
 
-TEST(Packet, KeysLieInTheOrderInWhichRecordsAreWritten) {
+TEST(Packet, KeysAreOrderedAsRecordsAreWritten) {
   StoredMotion stored;
   stored.frames = 100'000;
   stored.joints = 300;

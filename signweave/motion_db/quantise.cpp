@@ -10,26 +10,26 @@
 #include "signweave/motion_db/bones.h"
 #include "signweave/motion_db/grid.h"
 
-// Every run of frames (grid.h) is quantised by itself. A joint's step is s · w: w is fitted to the length of the bone
+// Every run of frames (grid.h) is quantised separately. A joint's step is s · w: w depends on the length of the bone
 // that it turns, and s, the same for all joints, is the largest for which all points stay within the tolerance. Parents
-// come first, and a joint that moves aims at its original rotation in model space, so that errors do not add up along a
-// chain. At last single joints are made coarser where there is room.
+// are quantised first, and a joint that moves aims at its original rotation in model space, so that errors do not
+// accumulate along a chain. Finally single joints are made coarser if there is room.
 
 namespace signweave::motion_db {
 
 namespace {
 
-/// The scales that are tried, in quarters of an octave.
+/// The range of scales that are tried, in quarters of an octave.
 constexpr int kFinest = -32;
 constexpr int kCoarsest = 14;
 
-/// How much of what a joint is off by it makes up for at the other end of its bone, by a turn. All of it would make
-/// joints that move slowly tremble.
-constexpr float kMadeUp = 0.7f;
+/// The fraction of its own position error that a joint compensates at the other end of its bone by a rotation. Full
+/// compensation would make slowly moving joints tremble.
+constexpr float kCompensation = 0.7f;
 
-/// Rotations shorter or longer than 1 by more than this are no rotations, and are kept as they are.
+/// Quaternions whose squared norm differs from 1 by more than this are not rotations and are stored raw.
 constexpr float kMostOff = 1e-3f;
-/// Where the component that would be dropped comes nearer to 0, it cannot be made again well enough.
+/// If the component to be dropped comes closer to 0, it cannot be restored accurately enough.
 constexpr float kLeastDropped = 0.01f;
 
 bool same_bits(const Eigen::Vector3f& a, const Eigen::Vector3f& b) noexcept {
@@ -38,7 +38,7 @@ bool same_bits(const Eigen::Vector3f& a, const Eigen::Vector3f& b) noexcept {
 double distance(const Eigen::Vector3f& a, const Eigen::Vector3f& b) noexcept {
   return (a.cast<double>() - b.cast<double>()).norm();
 }
-/// Points that are no numbers are near where they are the same.
+/// True if two points are within the distance. NaN points are near if they are the same.
 bool is_near(const Eigen::Vector3f& a, const Eigen::Vector3f& b, double tolerance) noexcept {
   return distance(a, b) <= tolerance || same_bits(a, b);
 }
@@ -46,14 +46,14 @@ bool is_unit(const Eigen::Quaternionf& q) noexcept {
   return std::fabs(q.squaredNorm() - 1.0f) <= kMostOff;
 }
 
-/// A grid of numbers.
+/// A grid of values.
 struct Grid {
   float step = 0;
   double inverse = 0;
   explicit Grid(int level) : step(step_of(level)), inverse(1.0 / static_cast<double>(step)) {}
 };
 
-/// A number's place on a grid. Those that are none or too large have none.
+/// A number's position on a grid. NaN and too large numbers have none.
 struct OnGrid {
   float value = 0;
   bool ok = false;
@@ -65,18 +65,18 @@ OnGrid on_grid(float value, const Grid& grid) noexcept {
 }
 
 /// One run of frames being quantised.
-class Run {
+class QuantisedRun {
  public:
-  Run(const Motion& original, const Bones& bones, double tolerance)
+  QuantisedRun(const Motion& original, const Bones& bones, double tolerance)
       : original_(original), bones_(bones), skeleton_(original.skeleton()), tolerance_(tolerance) {}
 
-  /// Quantises the run and writes it to `result`. `scale` is where the search begins, and is left where it ended.
+  /// Quantises the run and writes it to `result`. The search starts at `scale`, which is set to where it ended.
   void quantise(FrameRange frames, int& scale, Motion& result);
 
  private:
   struct JointState {
     Dropped dropped;
-    float weight = 0;  ///< of its rotation
+    float weight = 0;  ///< weight of its rotation
     int level = 0, translation_level = 0;
     bool raw = false, translation_raw = false;
     bool moves = false, translation_moves = false;
@@ -92,14 +92,14 @@ class Run {
     return original_.pose(frames_.begin + static_cast<std::int64_t>(t)).translations[which];
   }
 
-  void look_at(std::size_t joint);
+  void measure(std::size_t joint);
   void place(std::size_t joint);
   void place_translation(std::size_t joint, std::size_t which);
   void place_rotation(std::size_t joint);
   bool joint_is_near(std::size_t joint) const;
   bool all_near() const;
   bool try_scale(int scale);
-  bool keep_what_fails();
+  bool restore_failing();
   void coarsen();
 
   const Motion& original_;
@@ -108,12 +108,12 @@ class Run {
   double tolerance_;
   FrameRange frames_;
   std::vector<ModelPose> wanted_;  ///< [frame]
-  std::vector<ModelPose> got_;
+  std::vector<ModelPose> actual_;
   std::vector<Pose> poses_;  ///< [frame], quantised
   std::vector<JointState> joints_;
 };
 
-void Run::look_at(std::size_t joint) {
+void QuantisedRun::measure(std::size_t joint) {
   JointState& state = joints_[joint] = {};
   std::array<float, 4> low{}, high{};
   bool unit = true;
@@ -130,13 +130,13 @@ void Run::look_at(std::size_t joint) {
   for (std::size_t c = 0; c < 4; ++c) {
     state.range[c] = high[c] - low[c];
     state.middle[c] = 0.5f * (high[c] + low[c]);
-    const float least = low[c] > 0 ? low[c] : -high[c];  // of its size, where it keeps its sign
+    const float least = low[c] > 0 ? low[c] : -high[c];  // its least absolute value, if its sign is constant
     if (least <= best) continue;
     best = least;
     state.dropped = {static_cast<int>(c), high[c] < 0};
   }
   state.raw = !unit || !(best > kLeastDropped);
-  // What is made again is off by as much more as it is nearer to 0.
+  // The error of the restored component grows as it gets closer to 0.
   state.weight = bones_.rotation_weight[joint] * std::min(1.0f, 2.0f * best);
   const std::optional<std::size_t> which = skeleton_.translation_of(static_cast<JointIndex>(joint));
   if (!which) return;
@@ -152,8 +152,8 @@ void Run::look_at(std::size_t joint) {
   }
 }
 
-/// The joint's translation in every frame, on its grid or as it was.
-void Run::place_translation(std::size_t joint, std::size_t which) {
+/// Quantises the joint's translation in every frame, or leaves it raw.
+void QuantisedRun::place_translation(std::size_t joint, std::size_t which) {
   JointState& state = joints_[joint];
   const Grid grid(state.translation_level);
   const JointIndex parent = skeleton_.joints()[joint].parent;
@@ -167,8 +167,8 @@ void Run::place_translation(std::size_t joint, std::size_t which) {
       aim = translation(t, which);
       if (parent != kNoJoint) {
         const auto at = static_cast<std::size_t>(parent);
-        const Eigen::Quaternionf& turn = got_[t].rotations[at];
-        if (is_unit(turn)) aim = turn.conjugate() * (wanted_[t].positions[joint] - got_[t].positions[at]);
+        const Eigen::Quaternionf& turn = actual_[t].rotations[at];
+        if (is_unit(turn)) aim = turn.conjugate() * (wanted_[t].positions[joint] - actual_[t].positions[at]);
       }
     }
     for (Eigen::Index c = 0; c < 3; ++c) {
@@ -181,7 +181,7 @@ void Run::place_translation(std::size_t joint, std::size_t which) {
   for (std::size_t t = 0; t < count(); ++t) poses_[t].translations[which] = translation(t, which);
 }
 
-void Run::place_rotation(std::size_t joint) {
+void QuantisedRun::place_rotation(std::size_t joint) {
   JointState& state = joints_[joint];
   const Grid grid(state.level);
   const JointIndex parent = skeleton_.joints()[joint].parent;
@@ -195,16 +195,17 @@ void Run::place_rotation(std::size_t joint) {
     Eigen::Quaternionf aim(state.middle.data());
     if (!still) {
       aim = rotation(t, joint);
-      if (parent != kNoJoint && is_unit(got_[t].rotations[static_cast<std::size_t>(parent)])) {
+      if (parent != kNoJoint && is_unit(actual_[t].rotations[static_cast<std::size_t>(parent)])) {
         Eigen::Quaternionf turned = wanted_[t].rotations[joint];
         const Eigen::Vector3f bone = turned * bones_.middle[joint];
-        // What hangs from it comes nearer to its place by a turn, where the joint itself is off.
-        const Eigen::Vector3f off = wanted_[t].positions[joint] - got_[t].positions[joint];
+        // If the joint itself is off, rotating it moves its children closer to their positions.
+        const Eigen::Vector3f off = wanted_[t].positions[joint] - actual_[t].positions[joint];
         if (bone.squaredNorm() > 1e-6f && off.squaredNorm() < 1e-2f * bone.squaredNorm()) {
-          const Eigen::Vector3f half = 0.5f * kMadeUp * bone.cross(off) / bone.squaredNorm();
+          const Eigen::Vector3f half = 0.5f * kCompensation * bone.cross(off) / bone.squaredNorm();
           turned = Eigen::Quaternionf(1.0f, half.x(), half.y(), half.z()).normalized() * turned;
         }
-        const Eigen::Quaternionf corrected = got_[t].rotations[static_cast<std::size_t>(parent)].conjugate() * turned;
+        const Eigen::Quaternionf corrected =
+            actual_[t].rotations[static_cast<std::size_t>(parent)].conjugate() * turned;
         if (corrected.dot(aim) < 0) {
           aim.coeffs() = -corrected.coeffs();
         } else {
@@ -224,15 +225,15 @@ void Run::place_rotation(std::size_t joint) {
   for (std::size_t t = 0; t < count(); ++t) poses_[t].rotations[joint] = rotation(t, joint);
 }
 
-/// Quantises a joint whose parents have been, and puts it into model space as to_model_space does.
-void Run::place(std::size_t joint) {
+/// Quantises a joint after its parents and computes it in model space as to_model_space does.
+void QuantisedRun::place(std::size_t joint) {
   const std::optional<std::size_t> which = skeleton_.translation_of(static_cast<JointIndex>(joint));
   if (which) place_translation(joint, *which);
   const Joint& it = skeleton_.joints()[joint];
   const auto parent = static_cast<std::size_t>(it.parent);
   for (std::size_t t = 0; t < count(); ++t) {
     const Eigen::Vector3f& local = which ? poses_[t].translations[*which] : it.offset;
-    ModelPose& got = got_[t];
+    ModelPose& got = actual_[t];
     if (it.parent == kNoJoint) {
       got.positions[joint] = local;
     } else {
@@ -242,30 +243,30 @@ void Run::place(std::size_t joint) {
   place_rotation(joint);
   for (std::size_t t = 0; t < count(); ++t) {
     const Eigen::Quaternionf& local = poses_[t].rotations[joint];
-    got_[t].rotations[joint] = it.parent == kNoJoint ? local : got_[t].rotations[parent] * local;
+    actual_[t].rotations[joint] = it.parent == kNoJoint ? local : actual_[t].rotations[parent] * local;
   }
 }
 
-/// True where a joint and its tips are within the tolerance in every frame.
-bool Run::joint_is_near(std::size_t joint) const {
+/// True if a joint and its tips are within the tolerance in every frame.
+bool QuantisedRun::joint_is_near(std::size_t joint) const {
   for (std::size_t t = 0; t < count(); ++t) {
-    if (!is_near(got_[t].positions[joint], wanted_[t].positions[joint], tolerance_)) return false;
+    if (!is_near(actual_[t].positions[joint], wanted_[t].positions[joint], tolerance_)) return false;
     for (const std::size_t i : bones_.tips[joint]) {
       const Tip& tip = skeleton_.tips()[i];
-      if (!is_near(position_of(tip, got_[t]), position_of(tip, wanted_[t]), tolerance_)) return false;
+      if (!is_near(position_of(tip, actual_[t]), position_of(tip, wanted_[t]), tolerance_)) return false;
     }
   }
   return true;
 }
 
-bool Run::all_near() const {
+bool QuantisedRun::all_near() const {
   for (std::size_t joint = 0; joint < joints_.size(); ++joint) {
     if (!joint_is_near(joint)) return false;
   }
   return true;
 }
 
-bool Run::try_scale(int scale) {
+bool QuantisedRun::try_scale(int scale) {
   const float size = static_cast<float>(tolerance_) * std::exp2(0.25f * static_cast<float>(scale));
   for (std::size_t joint = 0; joint < joints_.size(); ++joint) {
     joints_[joint].level = level_below(size * joints_[joint].weight);
@@ -275,8 +276,9 @@ bool Run::try_scale(int scale) {
   return all_near();
 }
 
-/// What moves a point that is off goes back to its own bits. False where nothing was left to go back.
-bool Run::keep_what_fails() {
+/// Restores the original bits of all values that move a point which is out of tolerance. False if there were none left
+/// to restore.
+bool QuantisedRun::restore_failing() {
   bool changed = false;
   const auto keep = [&](bool& raw) {
     changed = changed || !raw;
@@ -293,8 +295,9 @@ bool Run::keep_what_fails() {
   return changed;
 }
 
-/// Makes single joints coarser, twice from the ends of the chains inwards, where all that hangs from them stays near.
-void Run::coarsen() {
+/// Makes single joints coarser, in two passes from the ends of the chains inwards, as long as their descendants stay
+/// within tolerance.
+void QuantisedRun::coarsen() {
   for (std::size_t i = 2 * joints_.size(); i-- > 0;) {
     const std::size_t joint = i % joints_.size();
     JointState& state = joints_[joint];
@@ -317,22 +320,22 @@ void Run::coarsen() {
   }
 }
 
-void Run::quantise(FrameRange frames, int& scale, Motion& result) {
+void QuantisedRun::quantise(FrameRange frames, int& scale, Motion& result) {
   frames_ = frames;
   wanted_.resize(count());
-  got_.resize(count());
+  actual_.resize(count());
   poses_.assign(count(), Pose(skeleton_));
   joints_.resize(skeleton_.joint_count());
   for (std::size_t t = 0; t < count(); ++t) {
     to_model_space(skeleton_, original_.pose(frames.begin + static_cast<std::int64_t>(t)), wanted_[t]);
-    got_[t] = wanted_[t];
+    actual_[t] = wanted_[t];
   }
-  for (std::size_t joint = 0; joint < joints_.size(); ++joint) look_at(joint);
+  for (std::size_t joint = 0; joint < joints_.size(); ++joint) measure(joint);
 
   while (!try_scale(kFinest)) {
-    if (!keep_what_fails()) return;  // cannot be: the original is near itself. `result` has it.
+    if (!restore_failing()) return;  // cannot happen, as the original is within tolerance; `result` has it
   }
-  // The largest scale that does, sought around that of the run before.
+  // Searches for the largest scale that works, around that of the previous run.
   int good = kFinest;
   int bad = kCoarsest;
   int next = std::clamp(scale, kFinest + 1, kCoarsest - 1);
@@ -350,7 +353,7 @@ void Run::quantise(FrameRange frames, int& scale, Motion& result) {
   scale = good;
   coarsen();
 
-  // Verified as a reader will see it.
+  // Verifies the poses as a reader will see them.
   ModelPose seen;
   for (std::size_t t = 0; t < count(); ++t) {
     to_model_space(skeleton_, poses_[t].view(), seen);
@@ -378,7 +381,7 @@ Motion quantise(const Motion& motion, float tolerance, const std::function<void(
   keep_hemisphere(original);
   Motion result = original;
   const Bones bones(original.skeleton());
-  Run run(original, bones, static_cast<double>(tolerance));
+  QuantisedRun run(original, bones, static_cast<double>(tolerance));
   int scale = 0;
   constexpr std::int64_t kFramesBetween = 64 * kRunFrames;
   for (std::int64_t begin = 0; begin < motion.frame_count(); begin += kRunFrames) {
@@ -388,7 +391,7 @@ Motion quantise(const Motion& motion, float tolerance, const std::function<void(
     run.quantise({begin, std::min(begin + kRunFrames, motion.frame_count())}, scale, result);
   }
   if (progress) progress(1.0);
-  keep_hemisphere(result);  // where neighbours were half a turn apart
+  keep_hemisphere(result);  // if neighbours were half a turn apart
   return result;
 }
 

@@ -6,17 +6,17 @@
 
 namespace signweave::motion_db {
 
-/// The motion with its numbers moved onto grids, so that it packs small: the only step of compact storing that loses
-/// anything. In every frame every joint and every tip stays within `tolerance` (metres, above 0) of where it was in
-/// model space; that is verified by forward kinematics, and where a stretch would break it, it is made finer, at last
-/// kept as it was. Joints that hold still do so afterwards; the others make up for what their parents lost. Rotations
-/// of joints that carry nothing are kept as if they carried something 5 cm away. Quaternions keep their hemisphere
-/// (keep_hemisphere), and scalar tracks are untouched. Throws Error{bad_input} unless the tolerance is a number above
-/// 0.
+/// Returns the motion with its numbers moved onto grids, so that it packs small: the only lossy step of compact
+/// storage. In every frame every joint and tip stays within `tolerance` (metres, above 0) of its original position in
+/// model space. This is verified by forward kinematics; a run that would violate it gets a finer grid, or in the end
+/// its original values. Joints that hold still continue to do so; the others compensate for the errors of their
+/// parents. Rotations of joints that carry nothing are treated as if they carried a point 5 cm away. Quaternions keep
+/// their hemisphere (keep_hemisphere), and scalar tracks are unchanged. Throws Error{bad_input} unless the tolerance is
+/// a number above 0.
 Motion quantise(const Motion& motion, float tolerance, const std::function<void(double fraction)>& progress = {});
 
-/// The largest distance, in metres of model space, of a joint or tip of one motion from where it is in the other, over
-/// all frames. Both have the same skeleton and count of frames.
+/// The largest distance, in metres of model space, between corresponding joints or tips of two motions over all frames.
+/// Both must have the same skeleton and number of frames.
 double largest_distance(const Motion& a, const Motion& b);
 
 }  // namespace signweave::motion_db

@@ -24,7 +24,7 @@ TEST(Grid, LevelsAscendFourToTheOctave) {
   EXPECT_EQ(level_below(100.0f), kCoarsestLevel);
 }
 
-TEST(Grid, WhatWasDroppedIsMadeAgain) {
+TEST(Grid, DroppedComponentsAreRestored) {
   for (int component = 0; component < 4; ++component) {
     for (const bool negative : {false, true}) {
       Eigen::Quaternionf q(0.5f, 0.5f, 0.5f, 0.5f);
@@ -53,8 +53,8 @@ TEST(Quantise, UsesMostOfTheTolerance) {
   }
 }
 
-TEST(Quantise, WhatHoldsStillStaysStillThoughItsParentMoves) {
-  // Fingers side by side on an arm that turns, each bent another way.
+TEST(Quantise, AStillJointStaysStillWhenItsParentMoves) {
+  // Parallel fingers on a turning arm, each with a different bend.
   std::mt19937 random(1);
   std::normal_distribution<float> normal;
   std::vector<Joint> joints{{.name = "arm"}};
@@ -82,14 +82,14 @@ TEST(Quantise, WhatHoldsStillStaysStillThoughItsParentMoves) {
   }
 }
 
-TEST(Quantise, WhatIsNoRotationIsKeptToTheBit) {
+TEST(Quantise, QuaternionsThatAreNotRotationsAreUnchanged) {
   const Motion motion = test_motion(40, 6);
   const Motion quantised = quantise(motion, 1e-3f);
   Motion turned = motion;
   keep_hemisphere(turned);
   EXPECT_EQ(std::memcmp(quantised.rotations().data(), turned.rotations().data(), turned.rotations().size_bytes()), 0);
 
-  // Nor does it help that nothing hangs from it, so that no point tells.
+  // This also holds if it has no children, so that no point reveals the rotation.
   Motion leaf(std::make_shared<const Skeleton>(std::vector<Joint>{{.name = "leaf"}}, std::vector<Tip>{}),
               FrameRate{60, 1}, 5);
   for (std::int64_t frame = 0; frame < 5; ++frame) leaf.pose(frame).rotations[0].coeffs() = {0.31f, 0.1f, 0.2f, 0.7f};
@@ -101,7 +101,7 @@ TEST(Quantise, TracksAreUntouched) {
   EXPECT_EQ(quantise(motion, 1e-3f).tracks(), motion.tracks());
 }
 
-TEST(Quantise, TellsHowFarItIsAndCanBeCancelled) {
+TEST(Quantise, ReportsProgressAndCanBeCancelled) {
   const Motion motion = test_motion(3'000, 2);
   std::vector<double> seen;
   quantise(motion, 1e-3f, [&](double fraction) { seen.push_back(fraction); });
@@ -117,11 +117,11 @@ TEST(Quantise, TellsHowFarItIsAndCanBeCancelled) {
                Cancelled);
 }
 
-TEST(Quantise, AMotionWithoutFramesHasNone) {
+TEST(Quantise, AMotionWithoutFramesStaysEmpty) {
   EXPECT_EQ(quantise(test_motion(0), 1e-3f).frame_count(), 0);
 }
 
-TEST(Quantise, RefusesAToleranceThatIsNoLength) {
+TEST(Quantise, RefusesAToleranceThatIsNotALength) {
   for (const float tolerance : {0.0f, -1.0f, std::nanf(""), std::numeric_limits<float>::infinity()}) {
     EXPECT_THROW(quantise(test_motion(2), tolerance), Error) << tolerance;
   }

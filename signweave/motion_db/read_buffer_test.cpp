@@ -1,4 +1,4 @@
-// Reading from engines that fill a buffer: no value is used after its buffer was.
+// Tests reading from engines that fill a buffer: no value may be used after its buffer was reused.
 
 #include <gtest/gtest.h>
 
@@ -8,8 +8,8 @@
 namespace signweave::motion_db {
 namespace {
 
-/// A snapshot as an engine without a map gives it: a value lies in the buffer, and is gone when that is used again.
-/// Lending a value for the whole transaction, which such an engine would have to keep a copy for, is refused.
+/// A snapshot like that of an engine without a map: a value lies in the buffer and is lost when that is reused. Lending
+/// a value for the whole transaction, for which such an engine would need a copy, is refused.
 class Filling final : public kv::ReadTransaction {
  public:
   explicit Filling(std::unique_ptr<kv::ReadTransaction> inner) : inner_(std::move(inner)) {}
@@ -18,7 +18,7 @@ class Filling final : public kv::ReadTransaction {
   std::optional<ByteSpan> get(ByteSpan key, Bytes& buffer) const override {
     ++gets;
     std::fill(buffer.begin(), buffer.end(), std::byte{0xAA});
-    buffer = Bytes();  // another block of memory each time
+    buffer = Bytes();  // a different block of memory each time
     const std::optional<ByteSpan> value = inner_->get(key);
     if (!value) return std::nullopt;
     buffer.assign(value->begin(), value->end());
@@ -33,7 +33,7 @@ class Filling final : public kv::ReadTransaction {
   std::unique_ptr<kv::ReadTransaction> inner_;
 };
 
-/// A snapshot as an engine with a map gives it, that counts what is looked up.
+/// A snapshot like that of an engine with a map; counts the lookups.
 class Lending final : public kv::ReadTransaction {
  public:
   explicit Lending(std::unique_ptr<kv::ReadTransaction> inner) : inner_(std::move(inner)) {}
@@ -86,7 +86,7 @@ TEST(ReadBuffer, AValueIsNotUsedAfterItsBuffer) {
   }
 }
 
-TEST(ReadBuffer, WhatAnEngineLendsIsLookedUpOnce) {
+TEST(ReadBuffer, ValuesThatAnEngineLendsAreLookedUpOnce) {
   const TestStore store;
   const Motion motion = test_motion(400, 5);
   const StoredMotion stored = put_motion(*store, motion, {AccessMode::Kind::by_frame, 10});
@@ -102,7 +102,7 @@ TEST(ReadBuffer, WhatAnEngineLendsIsLookedUpOnce) {
   EXPECT_EQ(snapshot->gets, 4);
 }
 
-TEST(ReadBuffer, AsksThatNothingBacksAreRefusedAfterAFewLookups) {
+TEST(ReadBuffer, RequestsForMissingRecordsAreRefusedAfterAFewLookups) {
   const TestStore store;
   const Motion motion = test_motion(400, 5, 1, 1);
   std::uint64_t generation = 0;
@@ -117,7 +117,7 @@ TEST(ReadBuffer, AsksThatNothingBacksAreRefusedAfterAFewLookups) {
   }
 }
 
-TEST(ReadBuffer, ALargeMotionWithAHoleIsRefused) {
+TEST(ReadBuffer, ALargeMotionWithMissingRecordsIsRefused) {
   const TestStore store;
   const Motion motion = test_motion(1'500, 3'000);  // 72 MB and more
   const StoredMotion stored = put_motion(*store, motion, {AccessMode::Kind::by_frame, 10});
@@ -126,7 +126,7 @@ TEST(ReadBuffer, ALargeMotionWithAHoleIsRefused) {
     return read(*snapshot, stored, read_skeleton(*snapshot, stored), {0, 1'500});
   };
   EXPECT_TRUE(same_bits(whole(), motion));
-  for (const std::uint32_t block : {149u, 144u, 17u}) {  // the last, one that is looked for first, one that is not
+  for (const std::uint32_t block : {149u, 144u, 17u}) {  // the last, one of the sample, one outside the sample
     const auto change = store->write();
     change->erase(key_of(stored.generation, {.kind = RecordKind::packet, .part = kAllJoints, .block = block}));
     change->commit();

@@ -17,23 +17,23 @@ constexpr std::int64_t kMostFramesStored = std::numeric_limits<std::uint32_t>::m
 constexpr std::size_t kMostTracks = std::numeric_limits<std::uint16_t>::max();
 constexpr std::uint64_t kLargestValue = std::numeric_limits<std::uint32_t>::max();  // of LMDB
 
-/// Four values of so many bytes lie on a page, each with its key of 16 bytes and 10 of LMDB's own.
+/// Four values of this many bytes fit on a page, each with its key of 16 bytes and 10 bytes of LMDB's own.
 constexpr std::size_t kQuarterPage = (kPageSize - kPageLoss) / 4 - 16 - 10;
 
-/// The most frames of `frame_bytes` that a value of so many bytes takes.
+/// The largest number of frames of `frame_bytes` that fit in a value of this many bytes.
 std::uint32_t frames_in(std::size_t value_bytes, std::size_t frame_bytes) {
   return static_cast<std::uint32_t>(std::max<std::size_t>(1, (value_bytes - kHeaderSize) / frame_bytes));
 }
 
 /// The default p.
 ///
-/// By frame: as many as eight pages hold, 38 of 53 joints. A sign, half a second to two, then lies in a few packets.
-/// Measured (bench/store): packets of two to eight pages read alike; larger ones are slower, for more is fetched
-/// in vain at both ends, and smaller ones take more lookups, and more commits to write.
+/// By frame: as many frames as fit in eight pages, 38 frames of 53 joints. A sign, half a second to two seconds, is
+/// then in a few packets. Measured (bench/store): packets of two to eight pages read equally fast; larger ones are
+/// slower, because more is fetched in vain at both ends, and smaller ones need more lookups, and more commits to write.
 ///
-/// By joint and frame: as many as a quarter of a page holds, 60 (0.6 s at 100 Hz). Of one hand in one sign no more than
-/// twice the bytes asked for are then read, from signs of 0.6 s on; a whole page would hold 253 frames and be read in
-/// vain for the most part. More packets on a page would take more lookups.
+/// By joint and frame: as many frames as fit in a quarter of a page, 60 (0.6 s at 100 Hz). Reading one hand in one sign
+/// then fetches no more than twice the requested bytes, for signs of at least 0.6 s; a whole page would hold 253 frames
+/// and be read mostly in vain. More packets per page would need more lookups.
 std::uint32_t default_frames_per_packet(AccessMode::Kind kind, const Skeleton& skeleton) {
   const std::size_t joints = skeleton.joint_count();
   const std::size_t translations = skeleton.translation_count();
@@ -43,8 +43,8 @@ std::uint32_t default_frames_per_packet(AccessMode::Kind kind, const Skeleton& s
   return frames_in(kQuarterPage, 2 * translations > joints ? 16 + 12 : 16);
 }
 
-/// The default p of compact packets: as many whole runs as fill about as much as plain packets do, at the sizes that
-/// signing takes at 0.1 mm, and something to spare: 2.25 bytes a joint in packets of all joints, 4 in packets of one.
+/// The default p of compact packets: as many whole runs as fill about as much space as plain packets, at the sizes that
+/// signing needs at 0.1 mm with some margin: 2.25 bytes per joint in packets of all joints, 4 in packets of one.
 std::uint32_t default_compact_frames(AccessMode::Kind kind, const Skeleton& skeleton) {
   const std::size_t joints = skeleton.joint_count();
   const std::size_t translations = skeleton.translation_count();
@@ -62,12 +62,12 @@ void check_packet_size(const StoredMotion& stored) {
   const std::uint64_t frame_bytes = cut_by_joint(stored.mode)
                                         ? (stored.translations > 0 ? 28 : 16)
                                         : std::uint64_t{stored.joints} * 16 + std::uint64_t{stored.translations} * 12;
-  // What a compact packet has beside its numbers is less than as much again.
+  // The overhead of a compact packet is smaller than its numbers.
   const std::uint64_t bytes = kHeaderSize + frames * frame_bytes * (stored.tolerance > 0 ? 2 : 1);
   if (bytes <= kLargestValue) return;
   throw Error(ErrorCode::unsupported, "motion: a packet of " + to_string(stored.mode) + " would have " +
                                           std::to_string(bytes >> 20) +
-                                          " MiB and 4095 is the most; store it by_frame or by_joint_and_frame");
+                                          " MiB, more than the limit of 4095; store it by_frame or by_joint_and_frame");
 }
 
 AccessMode fitted(AccessMode mode, const Skeleton& skeleton, float tolerance) {
@@ -84,8 +84,8 @@ AccessMode fitted(AccessMode mode, const Skeleton& skeleton, float tolerance) {
 StoredMotion describe(const Motion& motion, AccessMode mode, std::uint64_t generation, float tolerance) {
   const auto refuse = [](ErrorCode code, const std::string& what) { throw Error(code, "motion: " + what); };
   const Skeleton& skeleton = motion.skeleton();
-  if (motion.frame_count() < 1) refuse(ErrorCode::bad_input, "it has no frames; store one that has");
-  if (skeleton.joint_count() < 1) refuse(ErrorCode::bad_input, "its skeleton has no joints; store one that has");
+  if (motion.frame_count() < 1) refuse(ErrorCode::bad_input, "it has no frames; store one that has some");
+  if (skeleton.joint_count() < 1) refuse(ErrorCode::bad_input, "its skeleton has no joints; store one that has some");
   if (motion.frame_count() > kMostFramesStored) refuse(ErrorCode::unsupported, "more than 2^32 - 1 frames; cut it");
   if (motion.tracks().size() > kMostTracks) refuse(ErrorCode::unsupported, "more than 65535 scalar tracks; drop some");
   if (!(tolerance >= 0) || !std::isfinite(tolerance)) refuse(ErrorCode::bad_input, "a tolerance must be 0 or a length");
@@ -144,14 +144,14 @@ StoredMotion decode(ByteReader& in) {
   for (std::string& track : stored.tracks) track = in.text();
   if (version == kCompactVersion) {
     stored.tolerance = in.number<float>();
-    if (!(stored.tolerance > 0) || !std::isfinite(stored.tolerance)) in.fail("a tolerance that is no length");
+    if (!(stored.tolerance > 0) || !std::isfinite(stored.tolerance)) in.fail("a tolerance that is not a length");
   }
 
   const bool by_frame =
       stored.mode.kind == AccessMode::Kind::by_frame || stored.mode.kind == AccessMode::Kind::by_joint_and_frame;
   if (stored.mode.kind > AccessMode::Kind::by_joint_and_frame) in.fail("an access mode that does not exist");
   if (by_frame != (stored.mode.frames_per_packet > 0)) in.fail("frames per packet that do not fit the access mode");
-  if (stored.rate.numerator < 1 || stored.rate.denominator < 1) in.fail("no frame rate");
+  if (stored.rate.numerator < 1 || stored.rate.denominator < 1) in.fail("an invalid frame rate");
   if (stored.frames < 1 || stored.frames > kMostFramesStored) in.fail("an impossible number of frames");
   if (stored.joints < 1 || stored.joints > 65'535) in.fail("an impossible number of joints");
   if (stored.translations > stored.joints) in.fail("more translations than joints");

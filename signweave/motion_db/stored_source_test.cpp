@@ -1,4 +1,4 @@
-// Reading frames of a stored motion straight to where they are wanted.
+// Tests reading frames of a stored motion directly into the caller's memory.
 
 #include <gtest/gtest.h>
 
@@ -33,7 +33,7 @@ struct Stored {
       : store(engine), stored(put_motion(*store, motion, mode)) {}
   std::shared_ptr<const KnownMotion> known() const { return std::make_shared<KnownMotion>(*store->read(), stored); }
   StoredSource source(std::shared_ptr<const KnownMotion> known) const { return {store->read(), std::move(known)}; }
-  /// Turns one bit of a record's payload.
+  /// Flips one bit of a record's payload.
   void damage(const Record& record) {
     const auto change = store->write();
     const ByteSpan value = *change->get(key_of(stored.generation, record));
@@ -49,7 +49,7 @@ class StoredSourceTest : public testing::TestWithParam<std::string> {};
 INSTANTIATE_TEST_SUITE_P(Engines, StoredSourceTest, testing::ValuesIn(kv::engines()),
                          [](const auto& row) { return row.param; });
 
-TEST_P(StoredSourceTest, GivesTheFramesOfEveryModeToTheBit) {
+TEST_P(StoredSourceTest, ReadsTheFramesOfEveryModeLosslessly) {
   const Motion motion = test_motion(700, 5, 1, 3);
   for (const AccessMode::Kind kind : kAllKinds) {
     for (const std::uint32_t p : {1u, 7u, 64u}) {
@@ -73,11 +73,11 @@ TEST_P(StoredSourceTest, FindsDamageWhenARecordIsFirstRead) {
   for (const AccessMode::Kind kind : kAllKinds) {
     Stored stored(GetParam(), test_motion(100, 5, 1, 2), {kind, 50});
     const auto known = stored.known();
-    read_all(stored.source(known), {0, 10});  // the first block is looked at, the second is not
+    read_all(stored.source(known), {0, 10});  // the first block is read, the second is not
     std::vector<Record> second;
     for_each_packet(stored.stored, {60, 61}, {}, [&](const Record& record) { second.push_back(record); });
     stored.damage(second.back());
-    const bool seen = second.back().block == 0;  // one block holds all: it was found sound before
+    const bool seen = second.back().block == 0;  // one block holds everything and was verified before
     const auto read = [&](std::shared_ptr<const KnownMotion> by) { read_all(stored.source(std::move(by)), {60, 70}); };
     if (seen) {
       EXPECT_NO_THROW(read(known));

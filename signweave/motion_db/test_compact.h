@@ -8,12 +8,12 @@
 
 namespace signweave::motion_db {
 
-/// What a made motion is like.
+/// The character of a random motion.
 enum class Manner { smooth, wild, spinning, still, flipping, far_away, no_rotations };
 inline constexpr Manner kManners[] = {Manner::smooth,   Manner::wild,     Manner::spinning,    Manner::still,
                                       Manner::flipping, Manner::far_away, Manner::no_rotations};
 
-/// For tests: joints in a random tree with bones of up to half a metre, some of length 0, and tips.
+/// For tests: a random tree of joints with bones of up to half a metre, some of length 0, and tips.
 inline std::shared_ptr<const Skeleton> random_skeleton(std::mt19937& random, int joints) {
   std::uniform_real_distribution<float> length(-0.3f, 0.3f);
   const auto offset = [&]() -> Eigen::Vector3f {
@@ -23,7 +23,7 @@ inline std::shared_ptr<const Skeleton> random_skeleton(std::mt19937& random, int
   std::vector<Joint> list;
   std::vector<Tip> tips;
   for (int i = 0; i < joints; ++i) {
-    // Chains more often than branches.
+    // Chains are more frequent than branches.
     const JointIndex parent =
         i == 0 ? kNoJoint : (random() % 3 > 0 ? i - 1 : static_cast<JointIndex>(random() % static_cast<unsigned>(i)));
     list.push_back({.name = "joint", .parent = parent, .offset = offset(), .translated = random() % 5 == 0});
@@ -32,7 +32,7 @@ inline std::shared_ptr<const Skeleton> random_skeleton(std::mt19937& random, int
   return std::make_shared<const Skeleton>(std::move(list), std::move(tips));
 }
 
-/// For tests: a motion of that manner, in the hemisphere of the frame before except where it flips.
+/// For tests: a random motion of this manner, in the hemisphere of the previous frame unless it flips.
 inline Motion random_motion(std::mt19937& random, int joints, std::int64_t frames, Manner manner) {
   Motion motion(random_skeleton(random, joints), FrameRate{60, 1}, frames);
   std::normal_distribution<float> normal;
@@ -67,7 +67,7 @@ inline Motion random_motion(std::mt19937& random, int joints, std::int64_t frame
   return motion;
 }
 
-/// Some manner, one to a dozen joints, one to 70 frames.
+/// Any manner, 1 to 12 joints, 1 to 69 frames.
 inline Motion any_motion() {
   std::mt19937 random(*rc::gen::arbitrary<unsigned>());
   const Manner manner = *rc::gen::elementOf(std::vector(std::begin(kManners), std::end(kManners)));

@@ -9,7 +9,7 @@
 
 namespace signweave::motion_db {
 
-/// For tests: a motion whose every number differs, with values that careless copying would change.
+/// For tests: a motion whose numbers all differ, with values that a careless copy would change.
 inline Motion test_motion(std::int64_t frames, int joints = 5, unsigned seed = 1, int tracks = 0) {
   std::vector<Joint> list;
   for (int i = 0; i < joints; ++i) {
@@ -41,7 +41,7 @@ inline Motion test_motion(std::int64_t frames, int joints = 5, unsigned seed = 1
   return motion;
 }
 
-/// What `read` must give, taken from the motion in memory.
+/// The expected result of `read`, taken from the motion in memory.
 inline Motion expected(const Motion& motion, FrameRange frames, const JointSet& joints) {
   if (joints.empty()) return motion.slice(frames);
   Motion part(motion.shared_skeleton(), motion.rate(), frames.size());
@@ -60,7 +60,7 @@ inline Motion expected(const Motion& motion, FrameRange frames, const JointSet& 
 inline constexpr AccessMode::Kind kAllKinds[] = {AccessMode::Kind::full, AccessMode::Kind::by_frame,
                                                  AccessMode::Kind::by_joint, AccessMode::Kind::by_joint_and_frame};
 
-/// A store in a folder of its own.
+/// A store in its own temporary folder.
 struct TestStore {
   explicit TestStore(const std::string& engine = kv::engines().front()) {
     kv::create(folder.path() / "db", engine);
@@ -80,7 +80,7 @@ inline StoredMotion put_motion(kv::KvStore& store, const Motion& motion, AccessM
   return stored;
 }
 
-/// Some frames, by a transaction of its own.
+/// Reads some frames in a transaction of its own.
 inline Motion read_back(const kv::KvStore& store, const StoredMotion& stored, FrameRange frames,
                         const JointSet& joints = {}, ReadCost* cost = nullptr) {
   const auto snapshot = store.read();

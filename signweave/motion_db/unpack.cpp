@@ -1,5 +1,5 @@
-// Unpacking. All joints of a packet: four at a time, by vectors of four. Some joints, or a packet of one joint: number
-// by number. Both give the same bits (compact_test.cpp), for both compute as `restored` does.
+// Unpacking. All joints of a packet are unpacked four at a time with vectors of four; some joints, or a packet of one
+// joint, number by number. Both give the same bits (compact_test.cpp), because both compute as `restored` does.
 
 #include <algorithm>
 
@@ -11,25 +11,25 @@ namespace signweave::motion_db {
 
 namespace {
 
-/// One number of the stream.
+/// Reads one number of the stream.
 std::uint32_t number_in(const std::byte* stream, std::size_t lane, std::uint64_t bit, std::uint32_t width) noexcept {
   const std::byte* const at = stream + (static_cast<std::size_t>(bit / 32) * kLanes + lane) * 4;
   const std::uint64_t two = loaded<std::uint32_t>(at) | std::uint64_t{loaded<std::uint32_t>(at + 4 * kLanes)} << 32;
   return static_cast<std::uint32_t>(two >> (bit % 32)) & ((1u << width) - 1);
 }
 
-/// A number on its grid. Wraps where damaged bytes have it so.
+/// A number on its grid. Wraps around if damaged bytes cause an overflow.
 float value_of(std::int32_t base, std::uint32_t above, std::uint8_t level) noexcept {
   return static_cast<float>(static_cast<std::int32_t>(static_cast<std::uint32_t>(base) + above)) * step_of(level);
 }
 
-/// What `unpack` works on, for one run.
+/// The context of `unpack` for one run.
 struct Task {
   const RunView& run;
   const Counts& counts;
-  FrameRange has;     ///< of the run
-  FrameRange shared;  ///< of these, asked for
-  std::size_t to;     ///< the first of those in `out`
+  FrameRange has;     ///< frames of the run
+  FrameRange shared;  ///< the requested ones of these
+  std::size_t to;     ///< position of the first of those in `out`
   std::size_t joint_count;
   std::size_t translation_count;
   MutablePoses out;
@@ -47,7 +47,8 @@ struct Task {
   }
 };
 
-/// A group's numbers over some frames: `three_at` gives the three whole numbers of a row, `finish` exchanges.
+/// Unpacks a group's numbers over some frames: `three_at` reads the three whole numbers of a row, `finish` exchanges
+/// components.
 template <typename ThreeAt, typename Finish>
 [[gnu::always_inline]] inline void unpack_group(const FourRotations& four, const Task& task, const Places& places,
                                                 std::uint64_t bit, const ThreeAt& three_at,
@@ -75,7 +76,7 @@ void unpack_all_rotations(const Task& task, const std::byte* order) noexcept {
     const U4 first_mask = mask_of(four.widths[0]);
     const U4 second_mask = mask_of(four.widths[1]);
     const U4 third_mask = mask_of(four.widths[2]);
-    // Three numbers have 32 bits in nearly every group.
+    // In nearly every group the three numbers together have at most 32 bits.
     const auto short_row = [=](std::uint64_t at) -> std::array<U4, 3> {
       const U4 bits = window(stream, at);
       return {bits & first_mask, bits >> second & second_mask, bits >> third & third_mask};
@@ -84,12 +85,12 @@ void unpack_all_rotations(const Task& task, const std::byte* order) noexcept {
       return {window(stream, at) & first_mask, window(stream, at + second) & second_mask,
               window(stream, at + third) & third_mask};
     };
-    const auto as_they_are = [](const FourQuaternions& q) { return q; };
+    const auto unchanged = [](const FourQuaternions& q) { return q; };
     const auto exchange = [&](const FourQuaternions& q) { return exchanged(q, four.component); };
     if (four.bits() > 32 || third > 31) {
       unpack_group(four, task, places, bit, long_row, exchange);
     } else if (four.all_w) {
-      unpack_group(four, task, places, bit, short_row, as_they_are);
+      unpack_group(four, task, places, bit, short_row, unchanged);
     } else {
       unpack_group(four, task, places, bit, short_row, exchange);
     }
@@ -97,7 +98,7 @@ void unpack_all_rotations(const Task& task, const std::byte* order) noexcept {
   }
 }
 
-/// All translations: the numbers of a group are neighbours in a frame.
+/// Unpacks all translations: the numbers of a group are adjacent in a frame.
 void unpack_all_translations(const Task& task) noexcept {
   const std::size_t numbers = 3 * task.counts.translations;
   std::uint64_t bit = task.row_begin(task.from()) + task.run.row_bits;
@@ -155,7 +156,7 @@ void unpack_rotation(const Task& task, std::size_t place, std::size_t joint) noe
   }
 }
 
-/// A translation of the packet, to where it belongs in a pose.
+/// Unpacks a translation of the packet to its position in a pose.
 void unpack_translation(const Task& task, std::size_t at, std::size_t to) noexcept {
   const std::size_t in_group = task.counts.in_group();
   std::uint64_t bit = task.run.row_bits;
@@ -177,17 +178,17 @@ void unpack_translation(const Task& task, std::size_t at, std::size_t to) noexce
   }
 }
 
-/// Overwrites what was kept as it is. In a packet of one joint `only` says which it is.
+/// Overwrites the values that are stored raw. In a packet of one joint `only` is that joint.
 void copy_raw(const Task& task, const JointSet& joints, const Skeleton& skeleton, std::optional<JointIndex> only) {
   const RunView& run = task.run;
   const std::size_t frame_bytes = 16 * run.raw_rotations + 12 * run.raw_translations;
-  const auto wanted = [&](JointIndex joint) {
+  const auto is_requested = [&](JointIndex joint) {
     return only || joints.empty() || std::binary_search(joints.begin(), joints.end(), joint);
   };
   for (std::size_t k = 0; k < run.raw_rotations; ++k) {
     const std::size_t place = loaded<std::uint16_t>(run.raw_places + 2 * k);
     const std::size_t joint = only ? static_cast<std::size_t>(*only) : place;
-    if (!wanted(static_cast<JointIndex>(joint))) continue;
+    if (!is_requested(static_cast<JointIndex>(joint))) continue;
     for (std::size_t i = 0; i < task.count(); ++i) {
       std::memcpy(task.rotation(i, joint).coeffs().data(), run.raw_values + (task.from() + i) * frame_bytes + 16 * k,
                   16);
@@ -196,7 +197,7 @@ void copy_raw(const Task& task, const JointSet& joints, const Skeleton& skeleton
   for (std::size_t k = 0; k < run.raw_translations; ++k) {
     const std::size_t place = loaded<std::uint16_t>(run.raw_places + 2 * (run.raw_rotations + k));
     const std::size_t to = only ? *skeleton.translation_of(*only) : place;
-    if (!wanted(skeleton.translated_joints()[to])) continue;
+    if (!is_requested(skeleton.translated_joints()[to])) continue;
     for (std::size_t i = 0; i < task.count(); ++i) {
       std::memcpy(task.out.translations[(task.to + i) * task.translation_count + to].data(),
                   run.raw_values + (task.from() + i) * frame_bytes + 16 * run.raw_rotations + 12 * k, 12);
@@ -204,7 +205,7 @@ void copy_raw(const Task& task, const JointSet& joints, const Skeleton& skeleton
   }
 }
 
-/// The place of a joint in a packet of all.
+/// The place of a joint in a packet of all joints.
 std::size_t place_of(const std::byte* order, std::size_t joint) noexcept {
   std::size_t place = 0;
   while (loaded<std::uint16_t>(order + 2 * place) != joint) ++place;
@@ -213,10 +214,10 @@ std::size_t place_of(const std::byte* order, std::size_t joint) noexcept {
 
 }  // namespace
 
-void unpack(ByteSpan payload, const Record& packet, const Skeleton& skeleton, FrameRange asked, const JointSet& joints,
-            MutablePoses out) {
+void unpack(ByteSpan payload, const Record& packet, const Skeleton& skeleton, FrameRange requested,
+            const JointSet& joints, MutablePoses out) {
   const Counts counts(packet, width_of(skeleton, packet));
-  const FrameRange shared{std::max(packet.frames.begin, asked.begin), std::min(packet.frames.end, asked.end)};
+  const FrameRange shared{std::max(packet.frames.begin, requested.begin), std::min(packet.frames.end, requested.end)};
   const std::int64_t first_run = packet.frames.begin / kRunFrames;
   const Runs runs(shared);
   for (std::int64_t number = runs.first; number < runs.end; ++number) {
@@ -224,12 +225,12 @@ void unpack(ByteSpan payload, const Record& packet, const Skeleton& skeleton, Fr
     const FrameRange has = frames_of_run(number, packet.frames);
     const RunView run(payload.data() + loaded<std::uint32_t>(payload.data() + which), counts,
                       static_cast<std::size_t>(has.size()));
-    const FrameRange wanted = frames_of_run(number, shared);
+    const FrameRange requested_frames = frames_of_run(number, shared);
     const Task task{.run = run,
                     .counts = counts,
                     .has = has,
-                    .shared = wanted,
-                    .to = static_cast<std::size_t>(wanted.begin - asked.begin),
+                    .shared = requested_frames,
+                    .to = static_cast<std::size_t>(requested_frames.begin - requested.begin),
                     .joint_count = skeleton.joint_count(),
                     .translation_count = skeleton.translation_count(),
                     .out = out};

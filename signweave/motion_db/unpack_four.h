@@ -5,17 +5,17 @@
 
 #include "signweave/motion_db/compact_layout.h"
 
-/// Inside this module only: four rotations at once out of a compact packet, as `restored` makes them one by one.
+/// Internal to this module: unpacks four rotations at once from a compact packet, with the same results as `restored`.
 namespace signweave::motion_db {
 
-// Vectors as GCC and clang know them on every machine.
+// Vector types that GCC and clang support on every machine.
 using U4 = std::uint32_t __attribute__((vector_size(16)));
 using I4 = std::int32_t __attribute__((vector_size(16)));
 using F4 = float __attribute__((vector_size(16)));
 using S4 = std::int16_t __attribute__((vector_size(8)));
 using B4 = std::uint8_t __attribute__((vector_size(4)));
 
-/// So many low bits, in four lanes.
+/// Masks of the lowest bits, in four lanes.
 struct Masks {
   std::array<std::array<std::uint32_t, kLanes>, 32> of{};
   constexpr Masks() {
@@ -29,14 +29,14 @@ inline constexpr Masks kMasks;
   return mask;
 }
 
-/// 32 bits of every lane, from a bit on.
+/// Returns 32 bits of every lane, starting at a bit.
 [[gnu::always_inline]] inline U4 window(const std::byte* stream, std::uint64_t bit) noexcept {
   const std::byte* const word = stream + static_cast<std::size_t>(bit / 32) * 4 * kLanes;
   const auto shift = static_cast<std::uint32_t>(bit % 32);
   return loaded<U4>(word) >> shift | (loaded<U4>(word + 4 * kLanes) << 1) << (31 - shift);
 }
 
-/// Whole numbers above a base, on a grid.
+/// Values on a grid, from whole numbers above a base.
 [[gnu::always_inline]] inline F4 values_of(U4 above, U4 base, F4 step) noexcept {
   return __builtin_convertvector(reinterpret_cast<I4>(above + base), F4) * step;
 }
@@ -45,14 +45,14 @@ inline constexpr Masks kMasks;
   return F4{std::sqrt(v[0]), std::sqrt(v[1]), std::sqrt(v[2]), std::sqrt(v[3])};
 }
 
-/// Rotations of the four joints of a group.
+/// The rotations of the four joints of a group.
 struct FourRotations {
   std::array<std::uint32_t, 3> widths;
   std::array<U4, 3> bases;
   F4 step;
-  U4 sign;  ///< of what is made again
+  U4 sign;  ///< of the restored component
   I4 component;
-  bool all_w;  ///< w was dropped of all four
+  bool all_w;  ///< w was dropped in all four
 
   FourRotations(const RunView& run, const Counts& counts, std::size_t group) noexcept {
     const RotationGroup it(run, counts, group);
@@ -70,19 +70,19 @@ struct FourRotations {
   std::uint32_t bits() const noexcept { return widths[0] + widths[1] + widths[2]; }
 };
 
-/// A component of four quaternions each.
+/// Four quaternions, one vector per component.
 struct FourQuaternions {
   F4 x, y, z, w;
 };
 
-/// What `restored` does, without the exchange of w and the one that was dropped.
+/// Does the same as `restored`, without exchanging w and the dropped component.
 [[gnu::always_inline]] inline FourQuaternions with_w_dropped(F4 a, F4 b, F4 c, U4 sign) noexcept {
   const F4 rest = 1.0f - (a * a + b * b + c * c);
   const F4 root = square_root(reinterpret_cast<F4>(reinterpret_cast<I4>(rest) & (rest > 0.0f)));
   return {a, b, c, reinterpret_cast<F4>(reinterpret_cast<U4>(root) | sign)};
 }
 
-/// The exchange, for each of four.
+/// Exchanges w and the dropped component in each of four quaternions.
 [[gnu::always_inline]] inline FourQuaternions exchanged(const FourQuaternions& q, I4 component) noexcept {
   const I4 x = reinterpret_cast<I4>(q.x);
   const I4 y = reinterpret_cast<I4>(q.y);
@@ -97,8 +97,8 @@ struct FourQuaternions {
           reinterpret_cast<F4>(z ^ (change & is_z)), reinterpret_cast<F4>(w)};
 }
 
-/// Where the quaternions of four joints go in a frame, in floats. Places that the last group has not got are those of
-/// its first, which is written last.
+/// The positions of the quaternions of four joints in a frame, in floats. Lanes that the last group lacks get the
+/// position of its first joint, which is written last.
 using Places = std::array<std::size_t, kLanes>;
 inline Places places_of(const std::byte* order, std::size_t group, std::size_t joints) noexcept {
   Places places;

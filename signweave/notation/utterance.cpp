@@ -17,7 +17,7 @@ struct UtteranceWord {
   std::size_t column = 1;  ///< in bytes, from 1
   std::string text;        ///< without its quotes
   bool quoted = false;     ///< it began with a quote
-  std::string suffix;      ///< what followed the closing quote, or "#3" and "@1..2" of a bare word
+  std::string suffix;      ///< the text after the closing quote, or "#3" and "@1..2" of a bare word
 };
 
 [[noreturn]] void fail(std::string_view what, std::size_t column, std::string_view why) {
@@ -37,7 +37,7 @@ std::optional<Number> whole_number(std::string_view text) {
   return value;
 }
 
-/// The begin of "#3" at the end of a bare word; a word that is all of it ("#3") is a gloss.
+/// The begin of "#3" at the end of a bare word. A word that consists of it alone ("#3") is a gloss.
 std::size_t token_suffix(std::string_view word) {
   const std::size_t sign = word.rfind('#');
   if (sign == word.npos || sign == 0 || !whole_number<std::size_t>(word.substr(sign + 1))) return word.npos;
@@ -108,7 +108,7 @@ Place place_of(const UtteranceWord& word, std::string_view what) {
   return place;
 }
 
-/// A name as it must be typed to come out the same. (One that holds a quote and cannot stand bare cannot be typed.)
+/// A name in the form in which it must be typed. (One that contains a quote and needs quotes cannot be typed.)
 std::string quoted_if_needed(const std::string& name) {
   const bool bare = !name.empty() && name != "," && name != "." && name.front() != '"' &&
                     std::none_of(name.begin(), name.end(), is_blank) && token_suffix(name) == name.npos &&
@@ -165,7 +165,7 @@ std::string to_string(const Utterance& utterance) {
 GlossRef parse_gloss_ref(std::string_view text, std::string_view what) {
   const std::string_view inner = trimmed(text);
   if (inner.empty()) fail(what, 1, "a gloss is missing");
-  // A bare gloss may hold blanks here: nothing else is separated by them.
+  // A bare gloss may contain blanks here, because nothing else is separated by them.
   UtteranceWord word;
   if (inner.front() == '"') {
     std::size_t at = 0;

@@ -32,7 +32,7 @@ TEST(Utterance, GlossesAreSeparatedByBlanksOfAnyKind) {
   EXPECT_EQ(utterance.places[1].gloss.gloss, "NUAGES");
 }
 
-TEST(Utterance, OnlyDoubleQuotesQuoteAndInsideThemAllIsLiteral) {
+TEST(Utterance, OnlyDoubleQuotesQuoteAndTheirContentIsLiteral) {
   EXPECT_EQ(only_gloss("AUJOURD'HUI").gloss, "AUJOURD'HUI");
   EXPECT_EQ(only_gloss("\"LE MANS\""), (GlossRef{"LE MANS", 0}));
   EXPECT_EQ(only_gloss("\"LE MANS\"#2"), (GlossRef{"LE MANS", 2}));
@@ -67,7 +67,7 @@ TEST(Utterance, CommasAndFullStopsAloneArePausesBetweenSigns) {
   EXPECT_EQ(utterance.places[3].gloss.gloss, ",");
 }
 
-TEST(Utterance, FaultsNameTheColumnAndTheMend) {
+TEST(Utterance, ErrorsNameTheColumnAndTheFix) {
   EXPECT_THAT(fault_in_utterance("A \"LE MANS"), HasSubstr("utterance:1:3: a quote is opened here and never closed"));
   EXPECT_THAT(fault_in_utterance(""), HasSubstr("no sign in it"));
   EXPECT_THAT(fault_in_utterance(" , ."), HasSubstr("no sign in it"));

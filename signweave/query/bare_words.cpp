@@ -14,16 +14,15 @@
 namespace signweave {
 namespace {
 
-constexpr std::size_t kMostWords = 64;         // as a sequence has places
-constexpr std::size_t kMostFound = 5'000'000;  // as of any query
+constexpr std::size_t kMostWords = 64;         // the maximum number of places of a sequence
+constexpr std::size_t kMostFound = 5'000'000;  // as for any query
 constexpr std::size_t kMostWordHints = 8;
 
-/// A quotation mark and what closes it.
+/// Opening and closing quotation marks.
 constexpr std::array<std::pair<std::string_view, std::string_view>, 4> kQuotationMarks = {
     {{"\"", "\""}, {"\xE2\x80\x9C", "\xE2\x80\x9D"}, {"\xC2\xAB", "\xC2\xBB"}, {"\xE2\x80\x9E", "\xE2\x80\x9C"}}};
 constexpr std::array<std::string_view, 9> kSeparators = {
-    " ", "\t",       "\r",           "\n",          ",",
-    ";", "\xC2\xA0", "\xE2\x80\xAF", "\xE3\x80\x80"};  // also blanks that do not break, or are wide
+    " ", "\t", "\r", "\n", ",", ";", "\xC2\xA0", "\xE2\x80\xAF", "\xE3\x80\x80"};  // including no-break and wide blanks
 
 template <typename Texts>
 std::size_t begins_with_any(std::string_view text, const Texts& texts) {
@@ -35,16 +34,17 @@ using Fits = std::function<bool(std::string_view label)>;
 
 class Finder {
  public:
-  Finder(const Segments& segments, const FindLimits& limits) : segments_(segments), limits_(limits), watch_(limits) {}
+  Finder(const Segments& segments, const FindLimits& limits)
+      : segments_(segments), limits_(limits), stop_check_(limits) {}
 
   void rows_of(RowKind kind, WordMatch match, const Fits& fits) {
     for (const Segments::Member& member : segments_.members()) {
       for (const std::uint32_t label : member.table.labels_of(kind)) {
-        watch_.tick();
+        stop_check_.tick();
         const std::string_view text = member.table.text_at(label);
         if (text.empty() || !fits(text)) continue;
         for (const RowId row : member.table.with_label(kind, label)) {
-          watch_.tick();
+          stop_check_.tick();
           if (member.numbers[member.table.recording(row)] != Segments::kNone) add(row + member.first, match);
         }
       }
@@ -101,12 +101,12 @@ class Finder {
 
   const Segments& segments_;
   const FindLimits& limits_;
-  StopCheck watch_;
+  StopCheck stop_check_;
   std::unordered_set<RowId> seen_;
   std::vector<WordAnswer> answers_;
 };
 
-/// Whether `words` stand in a label from where one of its own words begins; both in loose form.
+/// Whether `words` occur in a label from the beginning of one of its own words; both in loose form.
 bool stands_in(std::string_view words, std::string_view label) {
   const auto is_inside = [](char c) { return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || (c & 0x80) != 0; };
   for (std::size_t at = label.find(words); at != label.npos; at = label.find(words, at + 1)) {
@@ -173,7 +173,7 @@ std::vector<WordAnswer> find_words(const std::vector<std::string>& words, const 
   Finder finder(segments, limits);
   finder.rows_of(RowKind::sign, WordMatch::exact, [&](std::string_view label) { return label == exact; });
   finder.rows_of(RowKind::sign, WordMatch::folded, [&](std::string_view label) { return loose_form(label) == loose; });
-  std::vector<std::vector<std::string>> glosses(words.size());  // that are each word
+  std::vector<std::vector<std::string>> glosses(words.size());  // glosses that match each word
   if (words.size() > 1) {
     const std::vector<std::string> known = segments.glosses();
     for (const std::string& gloss : known) {
@@ -198,7 +198,7 @@ std::vector<WordAnswer> find_words(const std::vector<std::string>& words, const 
 std::vector<Notice> word_hints(const std::vector<std::string>& words, const Segments& segments) {
   std::vector<Notice> hints;
   std::vector<std::string> glosses = segments.glosses();
-  std::unordered_set<std::string> forms;  // of glosses that differ in their spelling one is enough
+  std::unordered_set<std::string> forms;  // one of several glosses that differ only in spelling is enough
   std::erase_if(glosses, [&](const std::string& gloss) { return !forms.insert(loose_form(gloss)).second; });
   const LanguageWords language = language_words();
   const auto is = [](std::span<const std::string> known, const std::string& word) -> const std::string* {
@@ -211,11 +211,11 @@ std::vector<Notice> word_hints(const std::vector<std::string>& words, const Segm
     if (hints.size() == kMostWordHints || is(glosses, word) != nullptr) continue;
     std::string text = fmt::format("nothing is called \"{}\"", printable(word));
     if (const std::string* recording = is(recordings, word)) {
-      text += fmt::format("; a recording is: did you mean recording = \"{}\"?", *recording);
+      text += fmt::format("; it is a recording: did you mean recording = \"{}\"?", *recording);
     } else if (const std::string* phase = is(language.phases, word)) {
       text += fmt::format("; did you mean phase = {}?", *phase);
     } else if (const std::string* field = is(language.fields, word)) {
-      text += fmt::format("; {} is a condition: docs/query.md tells how it is written", *field);
+      text += fmt::format("; {} is a condition: see docs/query.md for its syntax", *field);
     } else {
       text += did_you_mean(word, glosses);
     }

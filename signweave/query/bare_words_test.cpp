@@ -37,7 +37,7 @@ std::vector<std::string> hints_of(std::vector<std::string> words) {
   return texts;
 }
 
-TEST(BareWords, AreSeparatedByWhatPeopleType) {
+TEST(BareWords, AreSplitAtUsualSeparators) {
   EXPECT_THAT(bare_words("VANNES"), Optional(ElementsAre("VANNES")));
   EXPECT_THAT(bare_words(" vannes,\tmatin;  nuages\u00A0pluie\n"),
               Optional(ElementsAre("vannes", "matin", "nuages", "pluie")));
@@ -48,7 +48,7 @@ TEST(BareWords, AreSeparatedByWhatPeopleType) {
               Optional(ElementsAre("aujourd'hui", "peut-être", "IX-1", "A/B", "ça!")));
 }
 
-TEST(BareWords, AreNoneWhereAnOperatorStands) {
+TEST(BareWords, AreAbsentIfTheTextHasAnOperator) {
   for (const char* text : {"", "  ", ",", "\"\"", "gloss = \"VANNES\"", "a & b", "a|b", "(a", "a -> b", "!a", "@stroke",
                            "$X", "duration<2s", "\"VANNES", "“VANNES\"", "/V.*/"}) {
     EXPECT_EQ(bare_words(text), std::nullopt) << text;
@@ -58,7 +58,7 @@ TEST(BareWords, AreNoneWhereAnOperatorStands) {
   EXPECT_EQ(bare_words(many), std::nullopt);
 }
 
-TEST(FindWords, TheExactGlossComesFirstThenOthersThatFold) {
+TEST(FindWords, TheExactGlossComesFirstThenLooseMatches) {
   EXPECT_THAT(found({"VANNES"}),
               ElementsAre("exact cities VANNES 100", "exact meteo VANNES 2300", "folded cars vannes 1000",
                           "label meteo This morning, clouds over Vannes 0"));
@@ -79,7 +79,7 @@ TEST(FindWords, AWordOfAGlossIsFoundFromItsBeginning) {
   EXPECT_THAT(found({"rouillard"}), IsEmpty());
 }
 
-TEST(FindWords, SeveralAreASequenceAndWhereThereIsNoneAnyOfThem) {
+TEST(FindWords, SeveralMatchASequenceOrElseAnyOfThem) {
   EXPECT_THAT(found({"matin", "nuages"}), ElementsAre("sequence meteo MATIN NUAGES 500"));
   EXPECT_THAT(found({"nuages", "matin"}), ElementsAre("some meteo MATIN 500", "some meteo NUAGES 1000",
                                                       "some meteo NUAGES 1000", "some meteo MATIN 4200"));
@@ -95,16 +95,16 @@ TEST(FindWords, StopsInTime) {
   EXPECT_THROW(find_words({"a"}, Segments(many.table()), {.limit = {}, .deadline = {}, .cancel = &cancel}), Error);
 }
 
-TEST(WordHints, NameWhatIsNear) {
+TEST(WordHints, NameSimilarGlosses) {
   EXPECT_THAT(hints_of({"VANES"}), ElementsAre("nothing is called \"VANES\"; did you mean VANNES?"));
   EXPECT_THAT(hints_of({"Meteo"}),
-              ElementsAre("nothing is called \"Meteo\"; a recording is: did you mean recording = \"meteo\"?"));
+              ElementsAre("nothing is called \"Meteo\"; it is a recording: did you mean recording = \"meteo\"?"));
   EXPECT_THAT(hints_of({"strokes"}), ElementsAre("nothing is called \"strokes\""));
   EXPECT_THAT(hints_of({"stroke"}), ElementsAre("nothing is called \"stroke\"; did you mean phase = stroke?"));
   EXPECT_THAT(hints_of({"vannes"}), IsEmpty());
 }
 
-TEST(WordHints, AGlossWithAnOperatorInItIsKnown) {
+TEST(WordHints, AGlossThatContainsAnOperatorIsRecognised) {
   EXPECT_TRUE(is_loosely_a_gloss("ix(LOC)", corpus()));
   EXPECT_FALSE(is_loosely_a_gloss("ix(", corpus()));
 }

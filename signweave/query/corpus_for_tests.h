@@ -10,10 +10,10 @@
 
 namespace signweave {
 
-/// Recordings made by hand, for the tests of this module.
+/// Handmade recordings for the tests of this module.
 class TestCorpus {
  public:
-  /// Starts a recording; what follows goes into it.
+  /// Starts a recording; the following calls add to it.
   TestCorpus& recording(const std::string& name) {
     recordings_.push_back({name, {}, {}});
     return *this;
@@ -25,7 +25,7 @@ class TestCorpus {
     recordings_.back().document.tiers.push_back(tier);
     return *this;
   }
-  /// On the tier added last. Returns the annotation's id.
+  /// Adds an annotation to the tier added last. Returns its id.
   std::string annotation(const std::string& label, TimeSpan span, const std::string& parent = "") {
     return annotate(recordings_.back().document.tiers.back(), label, span, parent);
   }
@@ -40,7 +40,7 @@ class TestCorpus {
     PhaseKind kind;
     Milliseconds end;
   };
-  /// A sign on the tier; its phases lie on `phase_tier`, one after the other from its begin. Without phases it gets an
+  /// Adds a sign on the tier; its phases are on `phase_tier`, contiguous from its begin. Without phases it gets an
   /// inferred stroke. Returns the annotation's id.
   std::string sign(const std::string& tier, const std::string& gloss, TimeSpan span,
                    const std::vector<PhaseToBe>& phases = {}, Hand hand = Hand::both, const std::string& parent = "",
@@ -64,7 +64,7 @@ class TestCorpus {
     return sign.annotation;
   }
 
-  /// A sign of the other hand that shares all phases of the sign added last.
+  /// Adds a sign of the other hand that shares all phases of the sign added last.
   void twin(const std::string& tier, const std::string& gloss, Hand hand) {
     Sign sign = recordings_.back().signs.back();
     sign.gloss = gloss;
@@ -105,7 +105,7 @@ class TestCorpus {
 };
 
 /// Two recordings with sentences, signs of two hands, phases and mouthing. Every example in docs/query.md has an answer
-/// in it.
+/// in them.
 inline TestCorpus weather_corpus() {
   constexpr PhaseKind kPrep = PhaseKind::preparation;
   constexpr PhaseKind kStroke = PhaseKind::stroke;

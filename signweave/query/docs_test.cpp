@@ -73,7 +73,7 @@ TEST(Movement, ASearchFindsTheRowsForWhichTheConditionHolds) {
                                .recording = recording,
                                .any_hand = hand == Hand::both,
                                .hand = hand == Hand::left ? Side::left : Side::right};
-        const Stretches strokes = [&] {
+        const MeasuredSpans strokes = [&] {
           std::vector<TimeSpan> result;
           for (const RowId child : segments.children(row)) {
             if (segments.phase(child) == PhaseKind::stroke) result.push_back(segments.span(child));
@@ -92,7 +92,7 @@ TEST(Movement, ASearchFindsTheRowsForWhichTheConditionHolds) {
   EXPECT_GT(answers, 300U);
 }
 
-TEST(Movement, LikeOrdersWhatFulfilsTheRestByItsDistance) {
+TEST(Movement, LikeOrdersTheAnswersByDistance) {
   const Segments segments = weather_corpus().table();
   const std::unique_ptr<TestMovement> movement = weather_movement(segments);
   const PhaseQuery query = parse("phase = stroke & like(\"meteo\"@1000..1400)");
@@ -122,7 +122,7 @@ TEST(Movement, LikeOrdersWhatFulfilsTheRestByItsDistance) {
   EXPECT_TRUE(find(query, segments, limits, movement.get()).empty());
 }
 
-TEST(Movement, WhatAnExampleLacksIsSaid) {
+TEST(Movement, AnIncompleteExampleIsReported) {
   const Segments segments = weather_corpus().table();
   const std::unique_ptr<TestMovement> movement = weather_movement(segments);
   const auto fault = [&](const char* text, const Movement* source) -> std::string {
@@ -134,7 +134,7 @@ TEST(Movement, WhatAnExampleLacksIsSaid) {
     return "no fault";
   };
   EXPECT_THAT(fault("like(\"metteo\"@1..2)", movement.get()), testing::HasSubstr("did you mean meteo?"));
-  EXPECT_THAT(fault("like(\"meteo\"@20000..20100)", movement.get()), testing::HasSubstr("lies outside of the motion"));
+  EXPECT_THAT(fault("like(\"meteo\"@20000..20100)", movement.get()), testing::HasSubstr("lies outside the motion"));
   EXPECT_THAT(fault("like(\"meteo\"@1..200, left_knee)", movement.get()),
               testing::HasSubstr("'left_knee' is not known"));
   EXPECT_THAT(fault("like(\"meteo\"@1..200)", nullptr), testing::HasSubstr("there is no motion"));

@@ -15,15 +15,16 @@ namespace {
 
 constexpr std::size_t kN = kShapePoints;
 constexpr std::size_t kR = kShapeBand;
-/// Moments that are read at once around one: the band, and one for company.
+/// Moments read together around one: the band, and one for padding.
 constexpr std::size_t kWide = 2 * kR + 2;
 static_assert(PointShape::kMargin > kR && kWide == 8);
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
-/// Bounds and distances are sums in another order: what is refused must be farther by more than that may change.
+/// Bounds and distances are summed in different orders: a candidate is rejected only if it is farther by more than this
+/// may change.
 constexpr float kRounding = 1 + 1e-4f;
 
-/// The squared differences of one moment of `a` from those around it of `b`, all points and axes together.
+/// The squared differences between one moment of `a` and the moments around it of `b`, summed over all points and axes.
 std::array<float, kWide> differences(const Shape& a, std::size_t moment, const Shape& b) noexcept {
   std::array<float, kWide> sum{};
   for (std::size_t point = 0; point < a.size(); ++point) {
@@ -39,10 +40,10 @@ std::array<float, kWide> differences(const Shape& a, std::size_t moment, const S
   return sum;
 }
 
-/// The least sum along a path from first to last moments of both; infinity as soon as it is known to be above `limit`,
-/// given what is added at least from each moment of `b` on.
+/// The least sum along a path from the first moments of both to the last; infinity as soon as it is known to exceed
+/// `limit`, given a lower bound of what is added from each moment of `b` onwards.
 float warped(const Shape& a, const Shape& b, float limit, const std::array<float, kN + 1>& rest) noexcept {
-  // [k] of the row before and of this: the moment of b is that of a, less the band, plus k.
+  // [k] of the previous row and of this one: the moment of b is that of a, minus the band, plus k.
   std::array<float, kWide + 2> before;
   std::array<float, kWide + 2> row;
   before.fill(kInfinity);
@@ -52,7 +53,7 @@ float warped(const Shape& a, const Shape& b, float limit, const std::array<float
     float least = kInfinity;
     for (std::size_t k = 0; k <= 2 * kR; ++k) {
       if (i + k < kR || i + k >= kN + kR) continue;
-      // One moment of a earlier, the same moment of b is one place on.
+      // In the row of the previous moment of a, the same moment of b is at k + 1.
       const float straight = before[k];
       const float down = before[k + 1];
       float across = kInfinity;
@@ -61,7 +62,7 @@ float warped(const Shape& a, const Shape& b, float limit, const std::array<float
       row[k] = from + cost[k];
       least = std::min(least, row[k]);
     }
-    // Whatever path is taken, it has still to pass every moment of b behind the band.
+    // Every path still has to pass every moment of b after the band.
     if (least + rest[std::min(i + kR + 1, kN)] > limit) return kInfinity;
     before = row;
   }
@@ -72,10 +73,10 @@ float distance_of(float sum, std::size_t points) noexcept {
   return std::sqrt(sum / static_cast<float>(kN * points));
 }
 
-/// Squares of how far numbers lie outside of their bounds, added up.
+/// Sum of the squared distances of values outside their bounds.
 class Sums {
  public:
-  using Lanes = TraceStretch::Lanes;
+  using Lanes = TraceSpan::Lanes;
 #if defined(__SSE2__)
   void add(const Lanes& values, const Lanes& low, const Lanes& high) noexcept {
     for (std::size_t i = 0; i < 2; ++i) {
@@ -95,7 +96,7 @@ class Sums {
  private:
   __m128 sums_[2] = {_mm_setzero_ps(), _mm_setzero_ps()};
 #else
-  // As above to the bit: a difference that is no number counts as nothing, and the sums are added in the same order.
+  // Bit-identical to the above: a NaN difference counts as zero, and the sums are added in the same order.
   void add(const Lanes& values, const Lanes& low, const Lanes& high) noexcept {
     for (std::size_t i = 0; i < values.size(); ++i) {
       const float outside = std::max(0.0f, std::max(low[i] - values[i], values[i] - high[i]));
@@ -113,7 +114,7 @@ class Sums {
 #endif
 };
 
-/// Between two frames of a track, `part` of the way.
+/// Interpolates between two frames of a track with weight `part`.
 void put(const PointFrame& from, const PointFrame& to, float part, float velocity, std::size_t moment,
          PointShape& out) noexcept {
   for (int axis = 0; axis < 3; ++axis) {
@@ -138,11 +139,11 @@ bool resample(std::span<const PointFrame> track, float shoulder_width, PointShap
   return known;
 }
 
-TraceStretch::TraceStretch(const HandTrace& trace, FrameRange frames) noexcept
+TraceSpan::TraceSpan(const HandTrace& trace, FrameRange frames) noexcept
     : trace_(&trace), first_(static_cast<std::size_t>(frames.begin / trace.step)) {
   assert(!frames.empty() && frames.begin >= 0 && frames.end <= trace.frames);
   left_ = trace.samples() - 1 - first_;
-  // The last sample is that of the last frame, which may be nearer than a whole step.
+  // The last sample is that of the last frame, which may be less than a full step away.
   const std::int64_t regular = (trace.frames - 1) / trace.step * trace.step;
   whole_steps_ = static_cast<std::size_t>(regular / trace.step) - first_;
   begin_ = static_cast<float>(frames.begin % trace.step);
@@ -156,16 +157,16 @@ TraceStretch::TraceStretch(const HandTrace& trace, FrameRange frames) noexcept
   units_ = {kP, kP, kP, velocity, velocity, velocity, 0, 0};
 }
 
-inline TraceStretch::Place TraceStretch::place(std::size_t moment) const noexcept {
+inline TraceSpan::SamplePair TraceSpan::samples_at(std::size_t moment) const noexcept {
   const float at = begin_ + scale_ * static_cast<float>(moment);
-  // By way of a signed number: an unsigned one takes several instructions.
+  // Converts through a signed integer: the conversion to unsigned takes several instructions.
   const auto steps = static_cast<std::size_t>(static_cast<std::int64_t>(at * per_step_));
   const std::size_t low = std::min({steps, whole_steps_, left_});
   const float gap = low == whole_steps_ ? per_last_step_ : per_step_;
   return {low, std::min(low + 1, left_), std::min((at - static_cast<float>(low) * step_) * gap, 1.0f)};
 }
 
-inline bool TraceStretch::read(TracePoint point, const Place& at, Lanes& out) const noexcept {
+inline bool TraceSpan::read(TracePoint point, const SamplePair& at, Lanes& out) const noexcept {
   constexpr std::int16_t kNone = std::numeric_limits<std::int16_t>::min();
   const TraceSample* samples = (*trace_)[point].data() + first_;
   static_assert(sizeof(TraceSample) == 8 * sizeof(std::int16_t));
@@ -173,7 +174,7 @@ inline bool TraceStretch::read(TracePoint point, const Place& at, Lanes& out) co
   const __m128i a = _mm_loadu_si128(reinterpret_cast<const __m128i*>(samples + at.low));
   const __m128i b = _mm_loadu_si128(reinterpret_cast<const __m128i*>(samples + at.high));
   const __m128 part = _mm_set1_ps(at.part);
-  // Four numbers each, in the upper halves of 32 bits, and down from there with their signs.
+  // Four values each, in the upper halves of 32 bits, shifted down with their signs.
   const auto between = [&](__m128i from_bits, __m128i to_bits, const float* by, float* to) {
     const __m128 from = _mm_cvtepi32_ps(_mm_srai_epi32(from_bits, 16));
     const __m128 difference = _mm_sub_ps(_mm_cvtepi32_ps(_mm_srai_epi32(to_bits, 16)), from);
@@ -196,11 +197,11 @@ inline bool TraceStretch::read(TracePoint point, const Place& at, Lanes& out) co
 
 bool resample(const HandTrace& trace, TracePoint point, FrameRange frames, PointShape& out) noexcept {
   assert(!trace[point].empty());
-  const TraceStretch stretch(trace, frames);
+  const TraceSpan span(trace, frames);
   bool known = true;
-  TraceStretch::Lanes lanes;
+  TraceSpan::Lanes lanes;
   for (std::size_t moment = 0; moment < kN; ++moment) {
-    known = stretch.read(point, stretch.place(moment), lanes) && known;
+    known = span.read(point, span.samples_at(moment), lanes) && known;
     for (std::size_t axis = 0; axis < PointShape::kAxes; ++axis) out.at(axis, moment) = lanes[axis];
   }
   return known;
@@ -235,33 +236,33 @@ NearestSearch::NearestSearch(Shape example, std::size_t most)
   }
 }
 
-bool NearestSearch::too_far(const TraceStretch& stretch, std::span<const TracePoint> points) noexcept {
+bool NearestSearch::too_far(const TraceSpan& span, std::span<const TracePoint> points) noexcept {
   assert(points.size() == example_.size());
   const float most = limit();
   if (most == kInfinity) return false;
-  // Moments far from each other first: each tells something else.
+  // Distant moments first: each adds different information.
   static constexpr std::array<std::uint8_t, kN> kMoments = {16, 0,  31, 8,  24, 4,  12, 20, 28, 2, 6,
                                                             10, 14, 18, 22, 26, 30, 1,  3,  5,  7, 9,
                                                             11, 13, 15, 17, 19, 21, 23, 25, 27, 29};
 #if defined(SIGNWEAVE_AVX2)
   static const bool has_avx2 = __builtin_cpu_supports("avx2") != 0;
   const bool far =
-      has_avx2 ? outside_by_eights(stretch, points, kMoments, most) : outside_by_fours(stretch, points, kMoments, most);
+      has_avx2 ? outside_by_eights(span, points, kMoments, most) : outside_by_fours(span, points, kMoments, most);
 #else
-  const bool far = outside_by_fours(stretch, points, kMoments, most);
+  const bool far = outside_by_fours(span, points, kMoments, most);
 #endif
   if (far) ++counts_.by_moments;
   return far;
 }
 
-bool NearestSearch::outside_by_fours(const TraceStretch& stretch, std::span<const TracePoint> points,
+bool NearestSearch::outside_by_fours(const TraceSpan& span, std::span<const TracePoint> points,
                                      const std::array<std::uint8_t, kN>& moments, float most) const noexcept {
   Sums sums;
-  TraceStretch::Lanes lanes;
+  TraceSpan::Lanes lanes;
   for (const std::size_t moment : moments) {
-    const TraceStretch::Place place = stretch.place(moment);
+    const TraceSpan::SamplePair pair = span.samples_at(moment);
     for (std::size_t point = 0; point < points.size(); ++point) {
-      stretch.read(points[point], place, lanes);
+      span.read(points[point], pair, lanes);
       sums.add(lanes, low_lanes_[point * kN + moment], high_lanes_[point * kN + moment]);
     }
     if (sums.all() > most) return true;
@@ -270,20 +271,20 @@ bool NearestSearch::outside_by_fours(const TraceStretch& stretch, std::span<cons
 }
 
 #if defined(SIGNWEAVE_AVX2)
-/// The same with eight numbers in one register, to the bit.
-__attribute__((target("avx2"))) bool NearestSearch::outside_by_eights(const TraceStretch& stretch,
+/// Bit-identical to the above with eight values in one register.
+__attribute__((target("avx2"))) bool NearestSearch::outside_by_eights(const TraceSpan& span,
                                                                       std::span<const TracePoint> points,
                                                                       const std::array<std::uint8_t, kN>& moments,
                                                                       float most) const noexcept {
-  const __m256 units = _mm256_loadu_ps(stretch.units_.data());
+  const __m256 units = _mm256_loadu_ps(span.units_.data());
   __m256 sums = _mm256_setzero_ps();
   for (const std::size_t moment : moments) {
-    const TraceStretch::Place place = stretch.place(moment);
-    const __m256 part = _mm256_set1_ps(place.part);
+    const TraceSpan::SamplePair pair = span.samples_at(moment);
+    const __m256 part = _mm256_set1_ps(pair.part);
     for (std::size_t point = 0; point < points.size(); ++point) {
-      const TraceSample* samples = (*stretch.trace_)[points[point]].data() + stretch.first_;
-      const auto* from_bits = reinterpret_cast<const __m128i*>(samples + place.low);
-      const auto* to_bits = reinterpret_cast<const __m128i*>(samples + place.high);
+      const TraceSample* samples = (*span.trace_)[points[point]].data() + span.first_;
+      const auto* from_bits = reinterpret_cast<const __m128i*>(samples + pair.low);
+      const auto* to_bits = reinterpret_cast<const __m128i*>(samples + pair.high);
       const __m256 from = _mm256_cvtepi32_ps(_mm256_cvtepi16_epi32(_mm_loadu_si128(from_bits)));
       const __m256 to = _mm256_cvtepi32_ps(_mm256_cvtepi16_epi32(_mm_loadu_si128(to_bits)));
       const __m256 value = _mm256_mul_ps(units, _mm256_add_ps(from, _mm256_mul_ps(part, _mm256_sub_ps(to, from))));
@@ -327,7 +328,7 @@ void NearestSearch::offer(std::uint32_t id, const Shape& candidate) {
   assert(candidate.size() == example_.size());
   ++counts_.offered;
   const float most = limit();
-  // Every path begins at both first moments and ends at both last ones.
+  // Every path begins at both first moments and ends at both last moments.
   float ends = 0;
   for (std::size_t point = 0; point < candidate.size(); ++point) {
     for (std::size_t axis = 0; axis < PointShape::kAxes; ++axis) {

@@ -13,7 +13,7 @@
 namespace signweave {
 namespace {
 
-/// A path that wanders; near `base` by `noise`.
+/// A wandering path; near `base` by `noise`.
 Shape wander(std::mt19937& random, std::size_t points, const Shape* base = nullptr, float noise = 1) {
   std::normal_distribution<float> step(0, 0.2f);
   Shape shape(points);
@@ -29,7 +29,7 @@ Shape wander(std::mt19937& random, std::size_t points, const Shape* base = nullp
   return shape;
 }
 
-/// As one writes it down: all cells of the band, in doubles.
+/// The textbook algorithm: all cells of the band, in doubles.
 double by_the_book(const Shape& a, const Shape& b) {
   constexpr auto kN = static_cast<int>(kShapePoints);
   std::vector<std::vector<double>> sums(kN + 1, std::vector<double>(kN + 1, 1e300));
@@ -53,7 +53,7 @@ double by_the_book(const Shape& a, const Shape& b) {
   return std::sqrt(sums[kShapePoints][kShapePoints] / static_cast<double>(kShapePoints * a.size()));
 }
 
-RC_GTEST_PROP(Example, TheDistanceIsThatOfTheBook, (std::uint32_t seed)) {
+RC_GTEST_PROP(Example, TheDistanceIsThatOfTheTextbook, (std::uint32_t seed)) {
   std::mt19937 random(seed);
   const std::size_t points = 1 + random() % 3;
   const Shape a = wander(random, points);
@@ -62,7 +62,7 @@ RC_GTEST_PROP(Example, TheDistanceIsThatOfTheBook, (std::uint32_t seed)) {
   RC_ASSERT(std::abs(static_cast<double>(warped_distance(a, b)) - expected) < 1e-5 * (1 + expected));
 }
 
-TEST(Example, TheSameIsAtNoDistanceAndAShiftAtItsOwn) {
+TEST(Example, IdenticalSpansHaveDistanceZeroAndAShiftItsLength) {
   std::mt19937 random(5);
   const Shape a = wander(random, 2);
   EXPECT_EQ(warped_distance(a, a), 0);
@@ -72,7 +72,7 @@ TEST(Example, TheSameIsAtNoDistanceAndAShiftAtItsOwn) {
   EXPECT_FLOAT_EQ(warped_distance(still, away), 0.5f);
 }
 
-TEST(Example, ALittleEarlierIsNearerThanItLooks) {
+TEST(Example, ASmallTimeShiftIsNearerThanFrameByFrame) {
   Shape early(1);
   Shape late(1);
   float plain = 0;
@@ -84,7 +84,7 @@ TEST(Example, ALittleEarlierIsNearerThanItLooks) {
   EXPECT_LT(warped_distance(early, late), 0.5f * std::sqrt(plain / kShapePoints));
 }
 
-RC_GTEST_PROP(Example, TheSearchFindsWhatLookingAtAllFinds, (std::uint32_t seed)) {
+RC_GTEST_PROP(Example, TheSearchFindsTheSameAsAnExhaustiveSearch, (std::uint32_t seed)) {
   std::mt19937 random(seed);
   const std::size_t points = 1 + random() % 2;
   const Shape example = wander(random, points);
@@ -93,7 +93,7 @@ RC_GTEST_PROP(Example, TheSearchFindsWhatLookingAtAllFinds, (std::uint32_t seed)
   std::vector<NearestSearch::Found> all;
   std::vector<Shape> shapes;
   for (std::uint32_t id = 0; id < 80; ++id) {
-    // Some far, some near, some the same as one before.
+    // Some far, some near, some equal to an earlier one.
     const unsigned kind = random() % 4;
     if (kind == 0 && !shapes.empty()) {
       shapes.push_back(shapes[random() % shapes.size()]);
@@ -114,7 +114,7 @@ RC_GTEST_PROP(Example, TheSearchFindsWhatLookingAtAllFinds, (std::uint32_t seed)
   RC_ASSERT(search.take() == all);
 }
 
-TEST(Example, BoundsRefuseMostOfWhatIsFar) {
+TEST(Example, BoundsRejectMostDistantCandidates) {
   std::mt19937 random(3);
   const Shape example = wander(random, 2);
   NearestSearch search(example, 1);
@@ -139,7 +139,7 @@ TEST(Example, ATraceAndItsTrackHaveOneShape) {
       ASSERT_TRUE(resample(trace.track(TracePoint::right_palm, frames), trace.shoulder_width, from_track));
       for (std::size_t axis = 0; axis < PointShape::kAxes; ++axis) {
         for (std::size_t moment = 0; moment < kShapePoints; ++moment) {
-          // Between frames that are between samples the track goes in smaller straight lines, not other ones.
+          // Between frames that lie between samples, the track follows shorter line segments, not different ones.
           ASSERT_NEAR(from_trace.at(axis, moment), from_track.at(axis, moment), 2e-4)
               << hertz << ' ' << frames.begin << ' ' << axis << ' ' << moment;
         }
@@ -148,7 +148,7 @@ TEST(Example, ATraceAndItsTrackHaveOneShape) {
   }
 }
 
-RC_GTEST_PROP(Example, WhatIsTooFarByAFewMomentsIsNoAnswer, (std::uint32_t seed)) {
+RC_GTEST_PROP(Example, ACandidateRejectedByAFewMomentsIsNoAnswer, (std::uint32_t seed)) {
   std::mt19937 random(seed);
   const TestMotion test(400, seed, {random() % 2 == 0 ? 60 : 120, 1});
   const HandTrace trace = trace_hands(test.motion, test.model);
@@ -169,7 +169,7 @@ RC_GTEST_PROP(Example, WhatIsTooFarByAFewMomentsIsNoAnswer, (std::uint32_t seed)
   std::vector<NearestSearch::Found> all;
   for (std::uint32_t id = 0; id < pieces.size(); ++id) {
     all.push_back({warped_distance(example, shape_of(pieces[id])), id});
-    if (!search.too_far(TraceStretch(trace, pieces[id]), kPalms)) search.offer(id, shape_of(pieces[id]));
+    if (!search.too_far(TraceSpan(trace, pieces[id]), kPalms)) search.offer(id, shape_of(pieces[id]));
   }
   std::ranges::sort(all, [](const auto& a, const auto& b) {
     return a.distance < b.distance || (a.distance == b.distance && a.id < b.id);
@@ -189,7 +189,7 @@ TEST(Example, AShapeBeginsAndEndsWithItsFrames) {
   EXPECT_NEAR(shape.at(3, kShapePoints - 1), track.back().velocity.x() * kVelocityTime / trace.shoulder_width, 1e-5);
 }
 
-TEST(Example, WhatIsNoNumberHasNoShape) {
+TEST(Example, NanHasNoShape) {
   TestMotion test(40, 7);
   const auto arm = static_cast<std::size_t>(test.model.rig[Part::right_forearm].joint);
   test.motion.pose(20).rotations[arm].coeffs().setConstant(std::numeric_limits<float>::quiet_NaN());

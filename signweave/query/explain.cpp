@@ -11,7 +11,7 @@
 namespace signweave {
 namespace {
 
-/// The place, and the groups that begin or end there.
+/// The places from `first` to `last` as text, without relations and groups.
 std::string shown(const PhaseQuery& query, std::size_t first, std::size_t last) {
   PhaseQuery part;
   part.elements.assign(query.elements.begin() + static_cast<std::ptrdiff_t>(first),
@@ -35,14 +35,14 @@ void find_slow(const Expression& expression, std::vector<std::string>& found) {
   for (const Expression& operand : expression.operands) find_slow(operand, found);
 }
 
-/// The expression, and what of it is read from the motion. What stands inside of a link's sequence tells that itself.
-std::string kept(const Expression& expression) {
+/// The expression, and which of its conditions are read from the motion. The sequence inside a link reports its own.
+std::string condition_text(const Expression& expression) {
   std::vector<std::string> slow;
   find_slow(expression, slow);
   std::string text = to_string(expression);
   if (slow.empty()) return text;
   if (slow.size() == 1 && slow.front() == text) return text + ", read from the motion";
-  return fmt::format("{}; read from the motion, where the rest does not tell: {}", text, fmt::join(slow, ", "));
+  return fmt::format("{}; read from the motion if the rest does not decide: {}", text, fmt::join(slow, ", "));
 }
 
 std::string follow(const PhaseQuery& query, std::size_t from, std::size_t to) {
@@ -50,10 +50,10 @@ std::string follow(const PhaseQuery& query, std::size_t from, std::size_t to) {
   const std::string_view where = to > from ? "after" : "before";
   const std::string how = gap.direct() ? fmt::format("the row directly {}", where)
                                        : fmt::format("the rows {} within {}", where, to_string(gap));
-  return fmt::format("{}: keep those with {}", how, kept(query.elements[to].term.expression));
+  return fmt::format("{}: keep those with {}", how, condition_text(query.elements[to].term.expression));
 }
 
-/// Of the relations of an element, then of the groups that end there.
+/// The partner at this index: first the relations of an element, then those of the groups that end there.
 const Term& partner(const Element& element, std::size_t relation) {
   if (relation < element.relations.size()) return element.relations[relation].term;
   relation -= element.relations.size();
@@ -68,20 +68,20 @@ class Explainer {
 
   std::vector<std::string> take() { return std::move(steps_); }
 
-  void look_at(const PhaseQuery& query) {
-    StopCheck watch;
-    BoundQuery bound = bind(query, member_, nullptr, watch, false);
+  void add_plan(const PhaseQuery& query) {
+    StopCheck stop_check;
+    BoundQuery bound = bind(query, member_, nullptr, stop_check, false);
     const Plan chosen = plan(bound);
-    for (const Access& access : chosen.accesses) {
+    for (const AccessPath& access : chosen.access_paths) {
       if (access.through.empty()) continue;
       add(fmt::format("look up about {} rows: {}", access.rows, fmt::join(access.through, " and ")));
     }
     const Element& start = query.elements[chosen.element];
     if (chosen.relation) {
-      add(fmt::format("keep those with {}", kept(partner(start, *chosen.relation).expression)));
+      add(fmt::format("keep those with {}", condition_text(partner(start, *chosen.relation).expression)));
       add("take the rows around each of them");
     }
-    add(fmt::format("keep those with {}", kept(start.term.expression)));
+    add(fmt::format("keep those with {}", condition_text(start.term.expression)));
     for (std::size_t e = chosen.element + 1; e < query.elements.size(); ++e) add(follow(query, e - 1, e));
     for (std::size_t e = chosen.element; e > 0; --e) add(follow(query, e, e - 1));
     for (std::size_t e = 0; e < query.elements.size(); ++e) {
@@ -104,12 +104,12 @@ class Explainer {
       const std::string before =
           fmt::format("find the partner: {} {}", shown(query, first, last), word_of(relation.link));
       if (relation.sequence.empty()) {
-        add(fmt::format("{} {}", before, kept(relation.term.expression)));
+        add(fmt::format("{} {}", before, condition_text(relation.term.expression)));
         continue;
       }
-      add(fmt::format("{} what is found in its recording so:", before));
+      add(fmt::format("{} a match found in its recording by:", before));
       indent_ += 3;
-      look_at(relation.sequence.front());
+      add_plan(relation.sequence.front());
       indent_ -= 3;
     }
   }
@@ -126,10 +126,10 @@ std::string explain(const PhaseQuery& query, const Segments& segments) {
   const auto largest =
       std::ranges::max_element(segments.members(), {}, [](const auto& one) { return one.table.size(); });
   Explainer explainer(segments.members().empty() ? none : *largest);
-  explainer.look_at(query);
+  explainer.add_plan(query);
   std::vector<std::string> steps = explainer.take();
   if (const std::optional<std::size_t> place = ranked_place(query)) {
-    steps.push_back(fmt::format("order by the distance from {}: the nearest of them, {} without a limit",
+    steps.push_back(fmt::format("order by the distance from {}: the nearest, {} without a limit",
                                 to_string(example_at(query, *place)), kNearest));
   }
   std::string result = to_string(query) + '\n';

@@ -7,7 +7,7 @@
 
 namespace signweave {
 
-/// The plan for a query in words, one step a line: for `query --explain`.
+/// The plan of a query as text, one step per line: for `query --explain`.
 std::string explain(const PhaseQuery& query, const Segments& segments);
 
 }  // namespace signweave

@@ -9,10 +9,10 @@
 
 namespace signweave {
 
-// How far a point gets over some frames, and where it is at any of them: what `max(…)`, `min(…)`, `any(…)` and
-// `enters(…)` ask for.
+// The extremes of a point over some frames and the zones it is in at any of them: the values behind `max(…)`, `min(…)`,
+// `any(…)` and `enters(…)`.
 
-/// The least and the most of some numbers.
+/// Minimum and maximum of some numbers.
 struct Extremes {
   float least = std::numeric_limits<float>::infinity();
   float most = -std::numeric_limits<float>::infinity();
@@ -27,7 +27,7 @@ struct Extremes {
   }
 };
 
-// Sets of named places and directions as bits, each set below 2^24, so that a float holds it exactly.
+// Sets of named zones and directions as bits; each set is below 2^24, so that a float holds it exactly.
 constexpr std::uint32_t bit_of(Height height) noexcept {
   return 1U << static_cast<unsigned>(height);
 }
@@ -43,7 +43,7 @@ inline constexpr std::uint32_t kReachBits = 0x1800;
 constexpr std::uint32_t bits_of(Zone zone) noexcept {
   return bit_of(zone.height) | bit_of(zone.across) | bit_of(zone.reach);
 }
-/// Of the palm's and the fingers' direction, in one set; the masks leave Facing::unknown out.
+/// Directions of the palm and the fingers in one set; the masks exclude Facing::unknown.
 constexpr std::uint32_t palm_bit(Facing facing) noexcept {
   return 1U << static_cast<unsigned>(facing);
 }
@@ -58,37 +58,37 @@ struct Extent {
   Extremes x;
   Extremes height;
   Extremes forward;
-  Extremes speed;           ///< metres a second
-  Extremes acceleration;    ///< metres a second squared
-  Extremes openness;        ///< empty of what has no fingers
-  std::uint32_t in = 0;     ///< zones that it is in at some frame, as `bits_of`
-  std::uint32_t into = 0;   ///< zones that it is in at some frame and was not in at the frame before
-  std::uint32_t faces = 0;  ///< where palm and fingers point to at some frame
+  Extremes speed;           ///< metres per second
+  Extremes acceleration;    ///< metres per second squared
+  Extremes openness;        ///< empty for a point without fingers
+  std::uint32_t in = 0;     ///< zones it is in at some frame, as `bits_of`
+  std::uint32_t into = 0;   ///< zones it is in at some frame but not at the previous one
+  std::uint32_t faces = 0;  ///< directions of palm and fingers at some frame
 };
 
-/// `Extent` of frames that are added one after the other.
+/// Accumulates an `Extent` frame by frame.
 class ExtentSum {
  public:
   explicit ExtentSum(const SignerBody& body) noexcept : body_(&body) {}
-  /// The next frame of a stretch.
+  /// Adds the next frame of a span.
   void add(const PointFrame& frame) noexcept {
     const std::uint32_t bits = include(frame);
     if (before_ != 0) extent_.into |= bits & ~before_;
     before_ = bits;
   }
-  /// A frame by itself, which enters nothing. Its zones.
+  /// Adds a single frame without entering any zone. Returns its zones.
   std::uint32_t include(const PointFrame& frame) noexcept;
   const Extent& extent() const noexcept { return extent_; }
-  /// Goes on from what another sum gave.
+  /// Continues from the result of another sum.
   void start_from(const Extent& extent) noexcept { extent_ = extent; }
 
  private:
   const SignerBody* body_;
   Extent extent_;
-  std::uint32_t before_ = 0;  ///< zones of the last frame; 0: none came yet
+  std::uint32_t before_ = 0;  ///< zones of the last frame; 0 before the first
 };
 
-/// Of two stretches, between which nothing is entered.
+/// The extent of two spans together; no zone is entered between them.
 Extent join(const Extent& a, const Extent& b) noexcept;
 
 }  // namespace signweave

@@ -13,7 +13,7 @@ namespace signweave {
 struct PreparedQuery::State {
   PhaseQuery query;
   std::shared_ptr<const Segments> segments;
-  std::vector<std::unique_ptr<Search>> searches;  ///< one for each table
+  std::vector<std::unique_ptr<Search>> searches;  ///< one per table
   const Movement* movement = nullptr;
   std::optional<std::size_t> ranked;  ///< the place that like(…) orders
 
@@ -21,7 +21,7 @@ struct PreparedQuery::State {
   template <typename Use>
   void for_matches(const FindLimits& limits, Use&& use);
   std::vector<Segment> segments_found(const FindLimits& limits);
-  /// All that it is to choose from, and the nearest of them.
+  /// Ranks all candidates and returns the nearest.
   std::vector<Segment> nearest(const FindLimits& limits);
 };
 
@@ -29,7 +29,8 @@ void PreparedQuery::State::run(const FindLimits& limits, bool parts) {
   for (const std::unique_ptr<Search>& search : searches) search->run(limits, parts);
 }
 
-/// Calls `use(search, match)` for what the last run found, by recording, until the limit. No two tables share one.
+/// Calls `use(search, match)` for the results of the last run, by recording, until the limit. Each recording is in one
+/// table only.
 template <typename Use>
 void PreparedQuery::State::for_matches(const FindLimits& limits, Use&& use) {
   struct Run {
@@ -69,8 +70,8 @@ std::vector<Segment> PreparedQuery::State::segments_found(const FindLimits& limi
 }
 
 std::vector<Segment> PreparedQuery::State::nearest(const FindLimits& limits) {
-  StopCheck watch;
-  watch.begin(limits);
+  StopCheck stop_check;
+  stop_check.begin(limits);
   RankedExample example(example_at(query, *ranked), *segments, movement);
   FindLimits unlimited = limits;
   unlimited.limit.reset();
@@ -78,7 +79,7 @@ std::vector<Segment> PreparedQuery::State::nearest(const FindLimits& limits) {
   const std::size_t part = part_of_place(query, *ranked);
   NearestSearch search(example.shape(), std::max<std::size_t>(1, limits.limit.value_or(kNearest)));
   for (std::size_t i = 0; i < all.size(); ++i) {
-    watch.tick();
+    stop_check.tick();
     const RowId row = all[i].parts.empty() ? all[i].row : all[i].parts[part].row;
     const TimeSpan span = all[i].parts.empty() ? all[i].span : all[i].parts[part].span;
     example.offer(static_cast<std::uint32_t>(i), segments->recording(row), span, search);
@@ -135,7 +136,7 @@ void PreparedQuery::find(std::vector<FoundRow>& rows, const FindLimits& limits) 
 
 std::vector<Segment> find(const PhaseQuery& query, const Segments& segments, const FindLimits& limits,
                           const Movement* movement) {
-  // What is borrowed outlives the query.
+  // The borrowed arguments outlive the query.
   return PreparedQuery(query, std::shared_ptr<const Segments>(std::shared_ptr<void>(), &segments), movement, limits)
       .find(limits);
 }

@@ -18,7 +18,8 @@
 namespace signweave {
 namespace {
 
-/// Up to three recordings of at most 40 ms, so that bounds often coincide. Labels A, B, C and, now and then, none.
+/// Up to three recordings of at most 40 ms, so that bounds often coincide. Labels A, B, C and occasionally an empty
+/// one.
 SegmentTable random_table(std::mt19937& random) {
   const auto below = [&](unsigned most) { return random() % most; };
   const auto label = [&] { return std::string(below(6) == 0 ? "" : below(3) == 0 ? "B " : below(2) == 0 ? "C" : "A"); };
@@ -67,7 +68,7 @@ SegmentTable random_table(std::mt19937& random) {
   return corpus.table();
 }
 
-/// The meaning of docs/query.md, by trying every row and multiplying every expression out: slow and plain.
+/// Reference implementation of docs/query.md: tries every row and multiplies every expression out. Slow and simple.
 class Oracle {
  public:
   explicit Oracle(const SegmentTable& table) : table_(table) {}
@@ -91,7 +92,7 @@ class Oracle {
   };
   using Alternative = std::vector<Literal>;
 
-  /// A way to fill the places of a query, and what it marks then.
+  /// One assignment of rows to the places of a query, and the marked rows it gives.
   struct Found {
     std::vector<RowId> places;
     std::set<std::vector<RowId>> marked;
@@ -109,7 +110,7 @@ class Oracle {
   void search(const PhaseQuery& query, std::vector<RowId>& places, std::vector<Found>& result) const {
     if (places.size() == query.elements.size()) return keep(query, places, result);
     for (RowId row = 0; row < table_.size(); ++row) {
-      if (table_.kind(row) == RowKind::unit) continue;  // nothing here asks for them
+      if (table_.kind(row) == RowKind::unit) continue;  // no query here uses them
       if (!places.empty() && !may_follow(places.back(), row, query.gaps[places.size() - 1])) continue;
       if (!answers(query.elements[places.size()].term.expression, row, false)) continue;
       places.push_back(row);
@@ -181,7 +182,7 @@ class Oracle {
   SegmentRow row(RowId id) const { return table_.row(id); }
 
   bool same_group(RowId a, RowId b) const {
-    if (row(a).kind == RowKind::unit || row(b).kind == RowKind::unit) return false;  // no query here asks for units
+    if (row(a).kind == RowKind::unit || row(b).kind == RowKind::unit) return false;  // no query here uses units
     if (row(a).recording != row(b).recording || row(a).tier != row(b).tier || row(a).extra != row(b).extra)
       return false;
     return a != b;
@@ -365,11 +366,11 @@ class Oracle {
         return compare(it.span.begin, condition);
       case Field::end:
         return compare(it.span.end, condition);
-      case Field::movement:  // nothing is known of movement here
+      case Field::movement:  // no movement is known here
         return false;
       case Field::like:
         return true;
-      case Field::unit:  // nor are these asked for
+      case Field::unit:  // not used here either
       case Field::signer:
         return false;
     }
@@ -415,11 +416,11 @@ std::vector<RowId> key_of(const Segment& segment, const PhaseQuery& query) {
   return result;
 }
 
-RC_GTEST_PROP(FindProperty, AnswersAreThoseOfTryingEverything, (std::uint32_t seed)) {
+RC_GTEST_PROP(FindProperty, AnswersAreThoseOfAnExhaustiveSearch, (std::uint32_t seed)) {
   std::mt19937 random(seed);
   for (int i = 0; i < 30; ++i) {
     const SegmentTable table = random_table(random);
-    // The text's way round, so that the parser's checks hold for what is asked.
+    // Converts to text and back, so that the parser's checks hold for the query.
     const PhaseQuery query = parse(to_string(random_query(random)));
     RC_LOG() << to_string(query) << '\n';
     const std::vector<Segment> found = find(query, table);
@@ -442,7 +443,7 @@ RC_GTEST_PROP(FindProperty, AnswersAreThoseOfTryingEverything, (std::uint32_t se
   }
 }
 
-TEST(FindProperty, RandomQueriesHaveAnswersOftenEnoughToMeanSomething) {
+TEST(FindProperty, RandomQueriesHaveEnoughAnswers) {
   std::mt19937 random(1);
   int answered = 0;
   int sequences = 0;

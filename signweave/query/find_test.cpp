@@ -74,7 +74,7 @@ TEST(Find, ATierAloneGivesItsAnnotations) {
   EXPECT_THAT(answers("tier(\"Mouthings\") = \"pluie\""), IsEmpty());
 }
 
-TEST(Find, ATierBesideAGlossMeansWhatOverlapsThere) {
+TEST(Find, ATierJoinedToAGlossMeansOverlap) {
   EXPECT_THAT(answers("gloss = \"PLUIE\" & tier(\"Mouthing\") = \"pluie\" & hand = right"),
               ElementsAre("meteo PLUIE 6000..6700"));
   EXPECT_THAT(answers("gloss =~ /.*/ & recording = meteo & hand = right & !(tier(\"Mouthing\") =~ /.*/)"),
@@ -87,7 +87,7 @@ TEST(Find, TimesAndRecordingsAloneGiveSigns) {
   EXPECT_THAT(answers("recording = \"cities\""), ElementsAre("cities VANNES 100..900", "cities BREST 1000..1500"));
 }
 
-TEST(Find, AlternativesMayRangeOverDifferentThings) {
+TEST(Find, AlternativesMayRangeOverDifferentKinds) {
   EXPECT_THAT(answers("gloss = \"BREST\" | phase = hold | tier(\"Mouthing\") = \"pluie\""),
               ElementsAre("cities BREST 1000..1500", "cities BREST hold 1200..1500", "meteo pluie 6050..6500"));
   EXPECT_THAT(answers("(gloss = \"BREST\" | gloss = \"PLUIE\") & phase = stroke & hand != left"),
@@ -106,7 +106,7 @@ TEST(Find, ParentsAndChildrenAreFollowed) {
               ElementsAre("meteo Tomorrow, fog and rain 4000..9000", "meteo MATIN 4200..4600"));
 }
 
-TEST(Find, ASequenceOfNeighboursReachesFromFirstToLast) {
+TEST(Find, ASequenceOfNeighboursSpansFirstToLast) {
   const std::vector<Segment> found = find(parse("gloss = \"MATIN\" -> gloss = \"NUAGES\""), weather());
   ASSERT_EQ(found.size(), 1U);
   EXPECT_EQ(shown(found[0]), "meteo MATIN NUAGES 500..2000");
@@ -157,7 +157,7 @@ TEST(Find, PhasesThatTwoSignsShareAreFoundForBoth) {
   EXPECT_THAT(names("tier(\"Phase\") = s"), ElementsAre("A stroke")) << "one annotation, one answer";
 }
 
-TEST(Find, ARelationKeepsWhatHasAPartner) {
+TEST(Find, ARelationKeepsSegmentsWithAPartner) {
   EXPECT_THAT(answers("gloss = \"PLUIE\" overlaps tier(\"Mouthing\") = \"pluie\""),
               ElementsAre("meteo PLUIE 6000..6700", "meteo PLUIE 6000..6900"));
   EXPECT_THAT(answers("gloss = \"PLUIE\" overlaps @ tier(\"Mouthing\") = \"pluie\""),
@@ -180,7 +180,7 @@ TEST(Find, ThePartnerIsTheFirstInTime) {
   EXPECT_EQ(found[0].parts[1].span, (TimeSpan{10ms, 20ms}));
 }
 
-TEST(Find, AFaultyTierWhoseAnnotationsOverlapIsSearchedWhole) {
+TEST(Find, AFaultyTierWithOverlapsIsSearchedCompletely) {
   TestCorpus corpus;
   corpus.recording("r").tier("Gloss").tier("Phase");
   corpus.sign("Gloss", "A", {0ms, 100ms});
@@ -201,7 +201,7 @@ TEST(Find, AMarkMakesOnePartTheAnswer) {
   EXPECT_EQ(found[0].parts.size(), 2U);
   EXPECT_THAT(answers("@ gloss = MATIN ->[..10s] recording = meteo"),
               ElementsAre("meteo MATIN 500..1000", "meteo MATIN 4200..4600"))
-      << "each answer once, however many partners it has";
+      << "each answer once, regardless of the number of its partners";
 }
 
 TEST(Find, AGroupIsOneSegment) {
@@ -218,14 +218,14 @@ TEST(Find, AGroupIsOneSegment) {
       << "no annotation is on both sides";
 }
 
-TEST(Find, AMarkInAPartnerMakesThatTheAnswer) {
+TEST(Find, AMarkInAPartnerMakesItTheAnswer) {
   EXPECT_THAT(answers("tier(\"Mouthing\") = \"matin\" overlaps (gloss = MATIN -> @ gloss = NUAGES)"),
               ElementsAre("meteo NUAGES 1000..2000"));
   EXPECT_THAT(answers("tier(\"Mouthing\") = \"matin\" overlaps @ (gloss = MATIN -> gloss = NUAGES)"),
               ElementsAre("meteo MATIN NUAGES 500..2000"));
 }
 
-TEST(Find, VariablesReachIntoPartnersThatAreSequences) {
+TEST(Find, VariablesApplyInsidePartnerSequences) {
   TestCorpus corpus;
   corpus.recording("r").tier("Gloss").tier("Phase").tier("Mouth");
   corpus.sign("Gloss", "A", {0ms, 10ms});
@@ -297,7 +297,7 @@ TEST(Find, ALimitStopsAQueryThatWouldNeverEnd) {
   EXPECT_EQ(found.back().span.begin, 0ms);
 }
 
-TEST(Find, MoreAnswersThanMayBeKeptAreAnError) {
+TEST(Find, TooManyAnswersAreAnError) {
   TestCorpus corpus;
   corpus.recording("r").tier("Gloss").tier("Phase");
   for (int i = 0; i < 1'000; ++i) corpus.sign("Gloss", "A", {Milliseconds(10 * i), Milliseconds(10 * i + 10)});
@@ -313,20 +313,20 @@ TEST(Find, MoreAnswersThanMayBeKeptAreAnError) {
   EXPECT_EQ(find(query, table, {.limit = 1, .deadline = {}}).size(), 1U);
 }
 
-TEST(Find, ASearchThatWasBrokenOffLeavesNothingBehind) {
+TEST(Find, AnInterruptedSearchLeavesNoState) {
   TestCorpus corpus;
   corpus.recording("r").tier("Gloss").tier("Phase");
   for (int i = 0; i < 4'000; ++i) {
     corpus.sign("Gloss", i < 2 ? "B" : "A", {Milliseconds(10 * i), Milliseconds(10 * i + 10)});
   }
   PreparedQuery query(parse("gloss = $X ->[0s..] gloss = $X"), std::make_shared<const Segments>(corpus.table()));
-  EXPECT_THROW(query.find(), Error);  // at one of the A, of which there are too many pairs
+  EXPECT_THROW(query.find(), Error);  // there are too many pairs of A
   const std::vector<Segment> found = query.find({.limit = 1, .deadline = {}});
   ASSERT_EQ(found.size(), 1U);
   EXPECT_EQ(found.front().name, "B B");
 }
 
-TEST(Find, OfSeveralWaysToAnAnswerTheFirstInTimeIsTold) {
+TEST(Find, OfSeveralMatchesOfAnAnswerTheFirstInTimeIsReported) {
   TestCorpus corpus;
   corpus.recording("r").tier("Left").tier("Right").tier("Phase").tier("M");
   corpus.sign("Left", "LATE", {1'500ms, 2'000ms});
@@ -339,7 +339,7 @@ TEST(Find, OfSeveralWaysToAnAnswerTheFirstInTimeIsTold) {
   EXPECT_EQ(found.front().parts.front().name, "EARLY");
 }
 
-TEST(Find, TellsOnWhichTierAnAnswerLies) {
+TEST(Find, ReportsTheTierOfAnAnswer) {
   const auto tier_of = [](std::string_view text) { return find(parse(text), weather()).front().tier; };
   EXPECT_EQ(tier_of("gloss = VANNES"), "Gloss");
   EXPECT_EQ(tier_of("gloss = VANNES & phase = stroke"), "Phase");
@@ -359,14 +359,14 @@ TEST(Find, ALongUnitIsNamedAfterItsFirstSigns) {
   EXPECT_EQ(found.front().name, name + "…");
 }
 
-TEST(Find, AnEmptyTableAnswersNothing) {
+TEST(Find, AnEmptyTableHasNoAnswers) {
   for (const char* text : {"gloss = A", "phase = stroke", "tier(\"X\") = \"a\"", "duration > 1ms", "parent(gloss = A)",
                            "gloss =~ /.*/ -> gloss = A", "gloss = A overlaps gloss = B", "!(recording = \"r\")"}) {
     EXPECT_THAT(find(parse(text), SegmentTable()), IsEmpty()) << text;
   }
 }
 
-TEST(Hints, NameWhatIsNearToAnUnknownGlossTierOrRecording) {
+TEST(Hints, NameNearMatchesOfAnUnknownGlossTierOrRecording) {
   const auto texts = [](std::string_view text) {
     std::vector<std::string> result;
     for (const Notice& notice : hints(parse(text), weather())) result.push_back(notice.text);
@@ -399,7 +399,7 @@ TEST(Explain, SaysWhichIndexIsUsed) {
       "2. keep those with gloss = \"MATIN\"\n"
       "3. the row directly after: keep those with gloss = \"NUAGES\"\n"
       "4. keep those where (gloss = \"MATIN\" -> gloss = \"NUAGES\") has duration < 2000ms\n"
-      "5. find the partner: (gloss = \"MATIN\" -> gloss = \"NUAGES\") overlaps what is found in its recording so:\n"
+      "5. find the partner: (gloss = \"MATIN\" -> gloss = \"NUAGES\") overlaps a match found in its recording by:\n"
       "6.    look up about 1 rows: the gloss index (gloss = \"BREST\")\n"
       "7.    keep those with gloss = \"BREST\"\n"
       "8.    the row directly before: keep those with gloss = \"VANNES\"\n");

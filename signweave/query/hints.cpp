@@ -9,7 +9,7 @@
 namespace signweave {
 namespace {
 
-// A query may have thousands of conditions; nobody reads more than a few hints.
+// A query may have thousands of conditions; more than a few hints are not useful.
 constexpr std::size_t kMostHints = 8;
 constexpr int kMostConditions = 64;
 
@@ -17,19 +17,19 @@ class Hinter {
  public:
   explicit Hinter(const Segments& segments) : segments_(segments) {}
 
-  void look_at(const Expression& expression) {
-    if (expression.kind == Expression::Kind::condition) look_at(expression.condition);
-    for (const Expression& operand : expression.operands) look_at(operand);
-    for (const PhaseQuery& sequence : expression.sequence) look_at(sequence);
+  void check(const Expression& expression) {
+    if (expression.kind == Expression::Kind::condition) check(expression.condition);
+    for (const Expression& operand : expression.operands) check(operand);
+    for (const PhaseQuery& sequence : expression.sequence) check(sequence);
   }
-  void look_at(const PhaseQuery& query) {
-    for_parts(query, [&](const Term& term) { look_at(term.expression); });
+  void check(const PhaseQuery& query) {
+    for_parts(query, [&](const Term& term) { check(term.expression); });
   }
 
   std::vector<Notice> take() { return std::move(notices_); }
 
  private:
-  void look_at(const Condition& condition) {
+  void check(const Condition& condition) {
     if (notices_.size() >= kMostHints || ++looked_at_ > kMostConditions) return;
     if (std::holds_alternative<QueryVariable>(condition.value)) return;
     if (condition.field == Field::gloss) {
@@ -50,7 +50,7 @@ class Hinter {
       const std::unique_ptr<RE2> compiled = compile(*regex);
       const auto fits = [&](const std::string& name) { return RE2::FullMatch(match_form(name), *compiled); };
       if (std::any_of(known.begin(), known.end(), fits)) return;
-      return add(fmt::format("{} /{}/: it has to match the whole of it", none, printable(regex->pattern)));
+      return add(fmt::format("{} /{}/: it must match the whole name", none, printable(regex->pattern)));
     }
     const std::string& name = std::get<std::string>(condition.value);
     if (!contains(name, known)) add(fmt::format("{} \"{}\"{}", none, printable(name), did_you_mean(name, known)));
@@ -76,7 +76,7 @@ class Hinter {
 
 std::vector<Notice> hints(const PhaseQuery& query, const Segments& segments) {
   Hinter hinter(segments);
-  hinter.look_at(query);
+  hinter.check(query);
   return hinter.take();
 }
 

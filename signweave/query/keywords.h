@@ -9,7 +9,7 @@
 
 #include "signweave/query/phase_query.h"
 
-/// Inside this module only: which words the language has; how each is spelt is with `word_of`.
+/// Internal to this module: the words of the language. `word_of` gives the spelling of each.
 namespace signweave {
 
 inline constexpr std::array kFields = {Field::gloss,    Field::phase, Field::hand, Field::recording, Field::tier,
@@ -22,7 +22,7 @@ inline constexpr std::array kPhaseKinds = {PhaseKind::preparation, PhaseKind::st
                                            PhaseKind::hold, PhaseKind::other};
 inline constexpr std::array kHands = {Hand::both, Hand::right, Hand::left};
 
-/// The value that is spelt so; none where none is.
+/// The value with this spelling, or nullopt.
 template <typename Values>
 auto value_of(const Values& values, std::string_view word) {
   const auto at = std::find_if(values.begin(), values.end(), [&](auto value) { return word_of(value) == word; });

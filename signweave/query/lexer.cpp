@@ -21,14 +21,14 @@ std::size_t letters(std::string_view text) noexcept {
   return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) { return !continues(c); }));
 }
 
-/// Bytes of the character at the start of `text` as its first byte announces them.
+/// Length in bytes of the first character of `text`, as given by its first byte.
 std::size_t announced(std::string_view text) noexcept {
   const auto lead = static_cast<unsigned char>(text.front());
   const std::size_t size = lead < 0xC0 ? 1 : lead < 0xE0 ? 2 : lead < 0xF0 ? 3 : 4;
   return std::min(size, text.size());
 }
 
-/// The line around `offset` with a caret below; of a long line some 60 characters to either side.
+/// The line around `offset` with a caret below; a long line is cut to about 60 characters on either side.
 std::string caret_under(std::string_view line, std::size_t offset) {
   constexpr std::size_t kAround = 60;
   std::size_t begin = offset;
@@ -38,7 +38,7 @@ std::string caret_under(std::string_view line, std::size_t offset) {
   for (std::size_t n = 0; end < line.size() && n <= kAround; ++end) n += continues(line[end]) ? 0 : 1;
   while (end < line.size() && continues(line[end])) ++end;
   std::string shown(line.substr(begin, end - begin));
-  // One column per character, whatever it is.
+  // One column per character, whatever its width.
   for (char& c : shown) {
     if (static_cast<unsigned char>(c) < 0x20 || c == 0x7F) c = ' ';
   }
@@ -52,7 +52,7 @@ bool ends_word(std::string_view rest) noexcept {
          rest.starts_with("->");
 }
 
-/// Quotation marks that a text processor makes of straight ones, or that other languages use.
+/// Quotation marks that word processors substitute for straight ones, or that other languages use.
 bool starts_with_odd_quote(std::string_view rest) noexcept {
   constexpr std::string_view kQuotes[] = {"'", "`", "“", "”", "„", "«", "»", "‘", "’"};
   return std::any_of(std::begin(kQuotes), std::end(kQuotes), [&](auto quote) { return rest.starts_with(quote); });
@@ -78,7 +78,7 @@ std::string in_quotes(std::string_view text) {
 QueryLexer::QueryLexer(std::string_view text) : text_(text) {
   if (text_.size() > kLongest) {
     text_ = {};
-    fail(0, fmt::format("the query has {} bytes; at most {} are read: ask in parts", text.size(), kLongest));
+    fail(0, fmt::format("the query has {} bytes; at most {} are allowed: split it", text.size(), kLongest));
   }
   for (std::size_t at = 0; at < text_.size();) {
     const std::string_view letter = text_.substr(at, announced(text_.substr(at)));
@@ -215,11 +215,11 @@ QueryToken QueryLexer::read_regex() {
 
 QueryToken QueryLexer::read_word() {
   const std::string_view rest = text_.substr(at_);
-  if (starts_with_odd_quote(rest)) fail(at_, "only straight double quotes quote; write \"…\"");
+  if (starts_with_odd_quote(rest)) fail(at_, "a text needs straight double quotes; write \"…\"");
   QueryToken result{rest.front() == '$' ? QueryToken::Kind::variable : QueryToken::Kind::word, at_, "", ""};
   for (; at_ < text_.size() && !ends_word(text_.substr(at_)); ++at_) result.text += text_[at_];
   if (result.text.empty()) {
-    fail(at_, fmt::format("'{}' has no meaning here; a text with such characters stands in double quotes",
+    fail(at_, fmt::format("'{}' has no meaning here; put a text with such characters in double quotes",
                           printable(rest.substr(0, announced(rest)))));
   }
   return result;

@@ -11,7 +11,7 @@ namespace signweave {
 /// One token of a query.
 struct QueryToken {
   enum class Kind {
-    end,       ///< of the query
+    end,       ///< end of the query
     word,      ///< gloss, stroke, 300ms, LE-TEMPS-PREVU
     text,      ///< "…", `text` with its escapes resolved
     regex,     ///< /…/flags
@@ -20,14 +20,14 @@ struct QueryToken {
   };
   Kind kind = Kind::end;
   std::size_t begin = 0;  ///< byte offset
-  std::string text;       ///< of a symbol: itself; of a regex: the pattern
-  std::string flags;      ///< of a regex
+  std::string text;       ///< symbol: itself; regex: the pattern
+  std::string flags;      ///< flags of a regex
 };
 
-/// A text in double quotes, which reads back as itself.
+/// The text in double quotes, escaped so that it parses to itself.
 std::string in_quotes(std::string_view text);
 
-/// Cuts a query into tokens, with one token of look-ahead. Throws QueryError.
+/// Splits a query into tokens, with one token of look-ahead. Throws QueryError.
 class QueryLexer {
  public:
   /// Borrows `text`, which must outlive the lexer.
@@ -36,20 +36,21 @@ class QueryLexer {
   const QueryToken& peek() const noexcept { return next_; }
   QueryToken take();
   bool next_is(std::string_view symbol) const noexcept;
-  /// Takes the next token where it is this symbol.
+  /// Takes the next token if it is this symbol.
   bool accept(std::string_view symbol);
   void expect(std::string_view symbol, std::string_view hint);
-  /// The bytes up to the next ']', which is taken too; to be called where the next token is "[".
+  /// The bytes up to the next ']', which is taken too. The next token must be "[".
   std::string_view bracketed();
-  /// Where the next token is a word and a slash follows it at once ("m/s"), makes both and what follows one word.
+  /// If the next token is a word directly followed by a slash ("m/s"), joins both and the text after the slash into one
+  /// word.
   void join_slash();
-  /// The token as it is named in an error: "'&'", "the end of the query".
+  /// The token as shown in an error: "'&'", "the end of the query".
   static std::string shown(const QueryToken& token);
 
   [[noreturn]] void fail(std::size_t offset, const std::string& what, ErrorCode code = ErrorCode::bad_input) const;
   /// "column 3", "line 2, column 3": counted in characters.
   std::string place_of(std::size_t offset) const;
-  /// Where a view into the text begins.
+  /// Offset at which a view into the text begins.
   std::size_t offset_of(std::string_view part) const noexcept {
     return static_cast<std::size_t>(part.data() - text_.data());
   }

@@ -12,7 +12,7 @@ namespace {
 
 constexpr unsigned kPhaseKindCount = 5;
 
-/// Annotations nest a few levels deep; a damaged document may hold a ring of parents.
+/// Annotations nest a few levels deep; a damaged document may contain a cycle of parents.
 constexpr int kMostGenerations = 64;
 
 /// The tiers of that name, compared as labels are.
@@ -61,8 +61,8 @@ unsigned phases_called(const Condition& condition) {
   return condition.compare == Compare::equal ? result : kAll & ~result;
 }
 
-/// A sign moves in its strokes, all else over its span.
-std::vector<TimeSpan> stretches_of(const SegmentTable& table, RowId row) {
+/// A sign is measured over its strokes, any other row over its span.
+std::vector<TimeSpan> measured_spans_of(const SegmentTable& table, RowId row) {
   if (table.kind(row) != RowKind::sign) return {table.span(row)};
   std::vector<TimeSpan> result;
   for (const RowId child : table.children(row)) {
@@ -110,11 +110,11 @@ bool reads_motion(const BoundExpression& expression) noexcept {
 }
 
 Matcher::Matcher(const Expression& expression, const Segments::Member& member, const Movement* movement,
-                 StopCheck& watch, Plain plain)
+                 StopCheck& stop_check, Plain plain)
     : member_(&member),
       table_(&member.table),
       movement_(movement),
-      watch_(&watch),
+      stop_check_(&stop_check),
       plain_(plain),
       tier_names_(tiers_named(expression)),
       scopes_(scopes_of(expression, tier_names_)) {
@@ -132,9 +132,9 @@ BoundExpression Matcher::bind(const Expression& expression) {
   } else if (expression.kind == Expression::Kind::link) {
     const Plain plain = expression.link <= Link::descendant ? Plain::any : Plain::sign;
     if (!expression.sequence.empty()) {
-      result.sequence = std::make_shared<Search>(expression.sequence.front(), *member_, movement_, *watch_, false);
+      result.sequence = std::make_shared<Search>(expression.sequence.front(), *member_, movement_, *stop_check_, false);
     } else {
-      result.linked = std::make_unique<Matcher>(expression.operands.front(), *member_, movement_, *watch_, plain);
+      result.linked = std::make_unique<Matcher>(expression.operands.front(), *member_, movement_, *stop_check_, plain);
     }
   } else {
     result.top = top_scope(expression, tier_names_);
@@ -166,7 +166,7 @@ BoundCondition Matcher::bind(const Condition& condition) {
         break;
       }
       if (const Regex* regex = std::get_if<Regex>(&condition.value)) {
-        watch_->check();
+        stop_check_->check();
         result.regex = compile(*regex);
         result.known.resize(table_->text_count());
       } else {
@@ -201,15 +201,15 @@ BoundCondition Matcher::bind(const Condition& condition) {
 }
 
 bool Matcher::try_label(BoundCondition& condition, std::uint32_t label) {
-  watch_->tick();
+  stop_check_->tick();
   const bool fits = RE2::FullMatch(table_->text_at(label), *condition.regex);
   condition.known[label] = fits ? kFits : 1;
   return fits;
 }
 
 bool Matcher::accepts(RowId row) {
-  watch_->tick();
-  if (root_.kind == Expression::Kind::condition) {  // the usual ones without the detour over scopes
+  stop_check_->tick();
+  if (root_.kind == Expression::Kind::condition) {  // the common case, without going through scopes
     BoundCondition& condition = root_.condition;
     if (condition.field == Field::gloss) {
       return table_->kind(row) == RowKind::sign && fits(condition, table_->label(row));
@@ -315,7 +315,7 @@ bool Matcher::holds(BoundCondition& condition, RowId row) {
     case Field::movement:
       return holds_moving(*condition.movement, row);
     case Field::like:
-      return true;  // it orders the answers
+      return true;  // it only orders the answers
   }
   return false;
 }
@@ -331,7 +331,7 @@ bool Matcher::holds_moving(MovementCheck& check, RowId row) {
                          .recording = number,
                          .any_hand = kind == RowKind::annotation || hand == Hand::both,
                          .hand = hand == Hand::left ? Side::left : Side::right};
-  return check.holds(moving, [&] { return stretches_of(*table_, row); });
+  return check.holds(moving, [&] { return measured_spans_of(*table_, row); });
 }
 
 bool Matcher::holds_on_tier(BoundCondition& condition, RowId row) {
@@ -346,7 +346,7 @@ bool Matcher::holds_on_tier(BoundCondition& condition, RowId row) {
     if (rows == nullptr) continue;
     bool found = false;
     for_rows_around(*table_, *rows, rows->own(), span, [&](RowId other) {
-      watch_->tick();
+      stop_check_->tick();
       found = span.overlaps(table_->span(other)) && fits(condition, table_->label(other));
       return !found;
     });

@@ -10,11 +10,11 @@ namespace {
 
 constexpr float kOpenness = 127;
 
-/// What is measured of one stretch of a row.
-struct Stretch {
-  std::array<std::optional<Course>, 2> hands;  ///< [Side]; none: not known
+/// Measures of one span of a row.
+struct SpanMeasures {
+  std::array<std::optional<Course>, 2> hands;  ///< [Side]; nullopt: not known
   double frames = 0;                           ///< its weight in a mean
-  Distances apart;                             ///< of the palms
+  Distances apart;                             ///< distances of the palms
 };
 
 PointFrame point_of(const HandAt& at) noexcept {
@@ -32,8 +32,8 @@ bool is_finite(const PointOver& over) noexcept {
          over.end.position.allFinite();
 }
 
-Stretch from_trace(const HandTrace& trace, FrameRange frames, const Pause& pause) {
-  Stretch result;
+SpanMeasures from_trace(const HandTrace& trace, FrameRange frames, const Pause& pause) {
+  SpanMeasures result;
   if (frames.empty() || trace.samples() == 0) return result;
   result.frames = static_cast<double>(frames.size());
   std::array<PointTrack, 2> tracks;
@@ -56,9 +56,9 @@ Stretch from_trace(const HandTrace& trace, FrameRange frames, const Pause& pause
   return result;
 }
 
-/// The features, and what they lack from the trace.
-Stretch from_features(const PhaseFeatures& phase, const Stretch& traced, const SignerBody& body) {
-  Stretch result;
+/// The measures from the features; those that features lack from the trace.
+SpanMeasures from_features(const PhaseFeatures& phase, const SpanMeasures& traced, const SignerBody& body) {
+  SpanMeasures result;
   result.frames = traced.frames;
   for (std::size_t side = 0; side < 2; ++side) {
     const HandOver& hand = phase.hands[side];
@@ -91,37 +91,37 @@ Stretch from_features(const PhaseFeatures& phase, const Stretch& traced, const S
   return result;
 }
 
-/// Of several one after the other; what is not known of one is not known of all.
-Stretch joined(std::span<const Stretch> stretches, float shoulder_width) {
-  if (stretches.empty()) return {};
-  Stretch result;
-  result.apart = stretches.front().apart;
-  for (const Stretch& each : stretches) {
+/// Joins consecutive spans; a value that is not known for one is not known for the whole.
+SpanMeasures joined(std::span<const SpanMeasures> spans, float shoulder_width) {
+  if (spans.empty()) return {};
+  SpanMeasures result;
+  result.apart = spans.front().apart;
+  for (const SpanMeasures& each : spans) {
     result.frames += each.frames;
     result.apart.least = std::min(result.apart.least, each.apart.least);
     result.apart.most = std::max(result.apart.most, each.apart.most);
   }
-  result.apart.end = stretches.back().apart.end;
-  if (!std::ranges::all_of(stretches, [](const Stretch& each) { return each.apart.known(); })) result.apart = {};
+  result.apart.end = spans.back().apart.end;
+  if (!std::ranges::all_of(spans, [](const SpanMeasures& each) { return each.apart.known(); })) result.apart = {};
   for (std::size_t side = 0; side < 2; ++side) {
     std::vector<Course> courses;
     std::vector<double> weights;
-    for (const Stretch& each : stretches) {
+    for (const SpanMeasures& each : spans) {
       if (!each.hands[side]) break;
       courses.push_back(*each.hands[side]);
       weights.push_back(each.frames);
     }
-    if (courses.size() == stretches.size()) result.hands[side] = join(courses, weights, shoulder_width);
+    if (courses.size() == spans.size()) result.hands[side] = join(courses, weights, shoulder_width);
   }
   return result;
 }
 
-void write(const Stretch& stretch, const SignerBody& body, std::size_t row, MovementColumns& columns) {
+void write(const SpanMeasures& measures, const SignerBody& body, std::size_t row, MovementColumns& columns) {
   const auto put = [&](HandMeasure measure, Side side, float value) {
     columns[place_of({measure, side})][row] = value;
   };
   for (const Side side : kSides) {
-    const std::optional<Course>& hand = stretch.hands[static_cast<std::size_t>(side)];
+    const std::optional<Course>& hand = measures.hands[static_cast<std::size_t>(side)];
     if (!hand) continue;
     for (std::size_t i = 0; i < kHandMeasures; ++i) {
       const auto measure = static_cast<HandMeasure>(i);
@@ -130,7 +130,7 @@ void write(const Stretch& stretch, const SignerBody& body, std::size_t row, Move
   }
   for (const HandMeasure measure :
        {HandMeasure::distance, HandMeasure::most_distance, HandMeasure::begin_distance, HandMeasure::end_distance}) {
-    put(measure, Side::left, stretch.apart[measure]);
+    put(measure, Side::left, measures.apart[measure]);
   }
 }
 
@@ -294,36 +294,36 @@ MovementColumns measure_rows(std::span<const MovementRow> rows, const RecordingF
   for (std::vector<float>& column : columns) column.assign(rows.size(), kNotKnown);
   struct Stroke {
     Milliseconds begin;
-    Stretch stretch;
+    SpanMeasures measures;
   };
   std::vector<std::vector<Stroke>> strokes(rows.size());
   std::size_t phase = 0;
   std::size_t calls = 0;
-  const Pause pauses = [&] {  // rows are short mostly
+  const Pause pauses = [&] {  // most rows are short
     if (pause && (calls++ & 0xFU) == 0) pause();
   };
   for (std::size_t row = 0; row < rows.size(); ++row) {
     if (rows[row].kind == RowKind::sign) continue;
-    const Stretch traced = from_trace(trace, measured_frames(rows[row].span, clock, trace.frames), pauses);
+    const SpanMeasures traced = from_trace(trace, measured_frames(rows[row].span, clock, trace.frames), pauses);
     if (rows[row].kind == RowKind::annotation) {
       write(traced, trace.body, row, columns);
       continue;
     }
     const std::size_t place = phase++;
     const bool measured = place < features.phases.size() && features.phases[place].known;
-    const Stretch stretch = measured ? from_features(features.phases[place], traced, trace.body) : traced;
-    write(stretch, trace.body, row, columns);
+    const SpanMeasures measures = measured ? from_features(features.phases[place], traced, trace.body) : traced;
+    write(measures, trace.body, row, columns);
     if (rows[row].phase == PhaseKind::stroke && rows[row].parent < rows.size()) {
-      strokes[rows[row].parent].push_back({rows[row].span.begin, stretch});
+      strokes[rows[row].parent].push_back({rows[row].span.begin, measures});
     }
   }
   for (std::size_t row = 0; row < rows.size(); ++row) {
     if (rows[row].kind != RowKind::sign) continue;
     pauses();
     std::ranges::stable_sort(strokes[row], {}, &Stroke::begin);
-    std::vector<Stretch> stretches;
-    for (const Stroke& stroke : strokes[row]) stretches.push_back(stroke.stretch);
-    write(joined(stretches, trace.shoulder_width), trace.body, row, columns);
+    std::vector<SpanMeasures> spans;
+    for (const Stroke& stroke : strokes[row]) spans.push_back(stroke.measures);
+    write(joined(spans, trace.shoulder_width), trace.body, row, columns);
   }
   return columns;
 }

@@ -16,7 +16,7 @@ namespace {
 
 constexpr float kUnbounded = std::numeric_limits<float>::infinity();
 
-/// The nearest float that is no more, or no less.
+/// The nearest float not above, or not below, a value.
 float not_above(double value) noexcept {
   const auto near = static_cast<float>(value);
   return static_cast<double>(near) > value ? std::nextafter(near, -kUnbounded) : near;
@@ -34,7 +34,7 @@ HandMeasure measure_at(bool begin, Component component, bool named) noexcept {
   return begin ? HandMeasure::begin_state : HandMeasure::end_state;
 }
 
-/// The measure of the most or the least that a component is.
+/// The measure of the maximum or minimum of a component.
 HandMeasure measure_of_extent(bool most, Component component) noexcept {
   if (component == Component::x) return most ? HandMeasure::most_x : HandMeasure::least_x;
   if (component == Component::height) return most ? HandMeasure::most_height : HandMeasure::least_height;
@@ -46,7 +46,7 @@ bool is_equality(Compare compare) noexcept {
   return compare == Compare::equal || compare == Compare::not_equal;
 }
 
-/// What `any` is told from: at some moment more than a number is where the most is, less where the least is.
+/// The measure that decides `any`: above a number at some moment if the maximum is, below it if the minimum is.
 HandMeasure measure_at_any(const Condition& condition) noexcept {
   const Component component = condition.movement.component;
   if (component == Component::contact) return HandMeasure::contact;
@@ -99,7 +99,7 @@ HandMeasure measure_for(const Condition& condition) noexcept {
   return HandMeasure::speed;
 }
 
-/// The bits of a set that fulfil a condition.
+/// The bits of a set that meet a condition.
 std::uint32_t mask_for(const Condition& condition) noexcept {
   const auto of = [&](std::uint32_t bit, std::uint32_t all) {
     return condition.compare == Compare::not_equal ? all & ~bit : bit;
@@ -114,7 +114,7 @@ std::uint32_t mask_for(const Condition& condition) noexcept {
                                                          : of(fingers_bit(*facing), kFingersBits);
 }
 
-/// Whether a column counts shoulder widths; else metres or something else.
+/// Whether a column is in shoulder widths; otherwise it is in metres or another unit.
 bool in_shoulder_widths(HandMeasure measure) noexcept {
   switch (measure) {
     case HandMeasure::begin_x:
@@ -189,20 +189,21 @@ MovementCheck::MovementCheck(const Condition& condition, const Movement* movemen
     for (const Side side : kSides) use(Point::palm(side), true);
   };
   each_point(term.point, [&](const Point& point, bool own) {
-    if (!term.other) return ways_.push_back({point, std::nullopt, own, false});
+    if (!term.other) return alternatives_.push_back({point, std::nullopt, own, false});
     each_point(*term.other, [&](const Point& other, bool other_own) {
-      if (other != point) ways_.push_back({point, other, own, other_own});
+      if (other != point) alternatives_.push_back({point, other, own, other_own});
     });
   });
 }
 
 void MovementCheck::load(std::uint32_t recording) {
   if (recording_ == recording) return;
-  recording_.reset();  // where it is stopped below, nothing of it is at hand
-  told_.clear();
-  for (Way& way : ways_) {
-    const bool palms = way.point.kind == Point::Kind::palm && (!way.other || way.other->kind == Point::Kind::palm);
-    if (palms) way.column = movement_->column({measure_, way.point.side}, recording);
+  recording_.reset();  // if the code below is interrupted, nothing of it is loaded
+  series_values_.clear();
+  for (Alternative& alternative : alternatives_) {
+    const bool palms = alternative.point.kind == Point::Kind::palm &&
+                       (!alternative.other || alternative.other->kind == Point::Kind::palm);
+    if (palms) alternative.column = movement_->column({measure_, alternative.point.side}, recording);
   }
   const bool number = std::holds_alternative<Amount>(condition_->value);
   if (number) bounds_ = bounds_of_amount(recording);
@@ -218,7 +219,8 @@ MovementCheck::Bounds MovementCheck::bounds_of_amount(std::uint32_t recording) c
     if (!(width > 0)) return {kUnbounded, -kUnbounded};
     value = amount.unit == Unit::metres ? value / width : value * width;
   }
-  // The column's numbers are floats, the value is not: turned so that no number is taken for another.
+  // The column's values are floats, the condition's value is a double: rounded so that no comparison changes its
+  // result.
   switch (condition_->compare) {
     case Compare::less:
       return {-kUnbounded, std::nextafter(not_below(value), -kUnbounded)};
@@ -236,7 +238,7 @@ MovementCheck::Bounds MovementCheck::bounds_of_amount(std::uint32_t recording) c
   return {kUnbounded, -kUnbounded};
 }
 
-/// Of a named zone, by the borders that `zone_of` looks at.
+/// Bounds of a named zone, from the borders that `zone_of` uses.
 MovementCheck::Bounds MovementCheck::bounds_of_zone(std::uint32_t recording) const {
   const auto below = [](float value) { return std::nextafter(value, -kUnbounded); };
   const auto above = [](float value) { return std::nextafter(value, kUnbounded); };
@@ -289,7 +291,7 @@ bool MovementCheck::fits(float value) const {
   if (const Height* height = std::get_if<Height>(&condition_->value)) return compares(at.height, compare, *height);
   if (const Reach* reach = std::get_if<Reach>(&condition_->value)) return compares(at.reach, compare, *reach);
   if (const Contact* contact = std::get_if<Contact>(&condition_->value)) return has(at.state.contact, *contact);
-  // Openness and directions are those of a hand with fingers.
+  // Openness and directions apply only to a hand with fingers.
   if (at.state.palm == Facing::unknown) return false;
   if (const Facing* facing = std::get_if<Facing>(&condition_->value)) {
     const bool palm = condition_->movement.component == Component::palm;
@@ -298,35 +300,35 @@ bool MovementCheck::fits(float value) const {
   return bounds_.hold(at.state.openness);
 }
 
-bool MovementCheck::holds(const MovingRow& row, const Stretches& stretches) {
+bool MovementCheck::holds(const MovingRow& row, const MeasuredSpans& spans) {
   if (movement_ != nullptr && is_series(condition_->movement.quantity)) {
     load(row.recording);
-    return fits(series_of(row, stretches));
+    return fits(series_of(row, spans));
   }
-  if (ways_.empty()) return false;
+  if (alternatives_.empty()) return false;
   load(row.recording);
-  std::optional<std::vector<TimeSpan>> looked_at;
-  for (const Way& way : ways_) {
-    const bool wrong =
-        !row.any_hand && ((way.own && way.point.side != row.hand) || (way.other_own && way.other->side != row.hand));
+  std::optional<std::vector<TimeSpan>> measured;
+  for (const Alternative& alternative : alternatives_) {
+    const bool wrong = !row.any_hand && ((alternative.own && alternative.point.side != row.hand) ||
+                                         (alternative.other_own && alternative.other->side != row.hand));
     if (wrong) continue;
-    if (!way.column.values.empty()) {
-      if (fits(way.column.values[row.row])) return true;
+    if (!alternative.column.values.empty()) {
+      if (fits(alternative.column.values[row.row])) return true;
       continue;
     }
-    if (!looked_at) looked_at = stretches();
-    if (fits(from_frames(way, row.recording, *looked_at))) return true;
+    if (!measured) measured = spans();
+    if (fits(from_frames(alternative, row.recording, *measured))) return true;
   }
   return false;
 }
 
-/// A row may be asked about again and again, as a partner of others.
-float MovementCheck::series_of(const MovingRow& row, const Stretches& stretches) {
-  if (told_.size() <= row.row) told_.resize(row.row + 1, kUnbounded);
-  if (std::isinf(told_[row.row])) {
-    told_[row.row] = series_over(condition_->movement, *movement_, row.recording, stretches());
+/// A row may be tested repeatedly, as a partner of others.
+float MovementCheck::series_of(const MovingRow& row, const MeasuredSpans& spans) {
+  if (series_values_.size() <= row.row) series_values_.resize(row.row + 1, kUnbounded);
+  if (std::isinf(series_values_[row.row])) {
+    series_values_[row.row] = series_over(condition_->movement, *movement_, row.recording, spans());
   }
-  return told_[row.row];
+  return series_values_[row.row];
 }
 
 void MovementCheck::track(const Point& point, std::uint32_t recording, const HandTrace& trace, FrameRange frames,
@@ -340,9 +342,10 @@ void MovementCheck::track(const Point& point, std::uint32_t recording, const Han
   out = tracks.empty() ? PointTrack() : std::move(tracks.front());
 }
 
-float MovementCheck::from_frames(const Way& way, std::uint32_t recording, std::span<const TimeSpan> stretches) const {
+float MovementCheck::from_frames(const Alternative& alternative, std::uint32_t recording,
+                                 std::span<const TimeSpan> spans) const {
   const std::shared_ptr<const HandTrace> trace = movement_->hands(recording);
-  if (trace->samples() == 0 || stretches.empty()) return kNotKnown;
+  if (trace->samples() == 0 || spans.empty()) return kNotKnown;
   const FrameClock clock = movement_->clock(recording);
   std::vector<Course> courses;
   std::vector<double> weights;
@@ -350,7 +353,7 @@ float MovementCheck::from_frames(const Way& way, std::uint32_t recording, std::s
   PointTrack others;
   Distances apart;
   bool known = true;
-  for (const TimeSpan span : stretches) {
+  for (const TimeSpan span : spans) {
     const FrameRange frames = measured_frames(span, clock, trace->frames);
     if (frames.empty()) return kNotKnown;
     CourseSum sum(trace->body);
@@ -358,22 +361,22 @@ float MovementCheck::from_frames(const Way& way, std::uint32_t recording, std::s
         frames, [this] { movement_->pause(); },
         [&](FrameRange piece) {
           if (!known) return;
-          track(way.point, recording, *trace, piece, points);
+          track(alternative.point, recording, *trace, piece, points);
           known = !points.empty();
           if (!known) return;
-          if (!way.other) {
+          if (!alternative.other) {
             for (const PointFrame& point : points) sum.add(point);
             return;
           }
-          track(*way.other, recording, *trace, piece, others);
+          track(*alternative.other, recording, *trace, piece, others);
           known = others.size() == points.size() && apart.add(points, others, trace->shoulder_width);
         });
     if (!known) return kNotKnown;
-    if (way.other) continue;
+    if (alternative.other) continue;
     courses.push_back(sum.course(trace->rate, trace->shoulder_width));
     weights.push_back(static_cast<double>(frames.size()));
   }
-  if (way.other) return apart[measure_];
+  if (alternative.other) return apart[measure_];
   const Course all = join(courses, weights, trace->shoulder_width);
   return std::isfinite(all.over.path_length) ? measure_of(all, measure_, trace->body) : kNotKnown;
 }
@@ -381,7 +384,7 @@ float MovementCheck::from_frames(const Way& way, std::uint32_t recording, std::s
 #if defined(__SSE2__)
 namespace {
 
-/// Which of four numbers are no less than `low` and no more than `high`; a bound that is infinite is not looked at.
+/// Tests which of four values are not below `low` and not above `high`; an infinite bound is not tested.
 template <bool kLow, bool kHigh>
 struct Within {
   __m128 low, high;
@@ -393,31 +396,33 @@ struct Within {
   }
 };
 
-/// Which of four numbers lie without; what is no number does not.
+/// Tests which of four values lie outside; NaN does not.
 struct Outside {
   __m128 low, high;
   Outside(float low_bound, float high_bound) noexcept : low(_mm_set1_ps(low_bound)), high(_mm_set1_ps(high_bound)) {}
   __m128 operator()(__m128 four) const noexcept { return _mm_or_ps(_mm_cmplt_ps(four, low), _mm_cmpgt_ps(four, high)); }
 };
 
-/// Which of four sets have a bit of the mask; what is no number is no set, though it has every bit as an integer.
+/// Tests which of four sets have a bit of the mask; NaN is not a set: as an integer it has only the highest bit, which
+/// the mask excludes.
 struct HasBit {
   __m128i mask;
   explicit HasBit(std::uint32_t bits) noexcept : mask(_mm_set1_epi32(static_cast<int>(bits & 0x7FFFFFFFU))) {}
   __m128 operator()(__m128 four) const noexcept {
-    const __m128i sets = _mm_cvttps_epi32(four);  // what is no number becomes the least integer, its highest bit alone
+    const __m128i sets = _mm_cvttps_epi32(four);
     const __m128i none = _mm_cmpeq_epi32(_mm_and_si128(sets, mask), _mm_setzero_si128());
     return _mm_castsi128_ps(_mm_xor_si128(none, _mm_set1_epi32(-1)));
   }
 };
 
-/// Appends `first` + the places of the numbers that fit, of the first multiple of 64; gives how many those are.
+/// Appends `first` + the indexes of the values that fit, up to the last multiple of 64; returns the number of values
+/// tested.
 template <typename Fits>
 std::size_t append_blocks(std::span<const float> column, const Fits& fits, RowId first, std::vector<RowId>& rows) {
   constexpr std::size_t kBlock = 64;
   std::size_t i = 0;
   for (; i + kBlock <= column.size(); i += kBlock) {
-    // Of most blocks nothing fits: that is found first, with one branch.
+    // In most blocks nothing fits: a single branch detects that first.
     const float* values = column.data() + i;
     __m128 any[4];
     for (std::size_t k = 0; k < 4; ++k) any[k] = fits(_mm_loadu_ps(values + 4 * k));
@@ -469,12 +474,14 @@ bool is_scannable(const MovementTerm& term) noexcept {
 
 bool MovementCheck::scan(std::uint32_t recording, RowId first, std::vector<RowId>& rows) {
   if (is_series(condition_->movement.quantity)) return false;
-  if (ways_.empty()) return true;
+  if (alternatives_.empty()) return true;
   load(recording);
-  if (std::ranges::any_of(ways_, [](const Way& way) { return way.column.values.empty(); })) return false;
+  if (std::ranges::any_of(alternatives_,
+                          [](const Alternative& alternative) { return alternative.column.values.empty(); }))
+    return false;
   const std::size_t before = rows.size();
-  for (const Way& way : ways_) append_fitting(way.column.values, first, rows);
-  if (ways_.size() < 2) return true;
+  for (const Alternative& alternative : alternatives_) append_fitting(alternative.column.values, first, rows);
+  if (alternatives_.size() < 2) return true;
   const auto from = rows.begin() + static_cast<std::ptrdiff_t>(before);
   std::sort(from, rows.end());
   rows.erase(std::unique(from, rows.end()), rows.end());

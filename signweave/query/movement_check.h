@@ -11,80 +11,81 @@
 
 namespace signweave {
 
-/// A row of a table as a condition on movement looks at it.
+/// A row of a table as seen by a condition on movement.
 struct MovingRow {
   RowId row = kNoRow;  ///< within its recording
   std::uint32_t recording = 0;
-  bool any_hand = true;     ///< it is of no hand or of both, so that `hand` means either
-  Side hand = Side::right;  ///< of a row of one hand
+  bool any_hand = true;     ///< the row has no hand or both, so `hand` means either
+  Side hand = Side::right;  ///< for a row of one hand
 };
 
-/// Whether a term is about hands alone, of which columns are stored. All else is read from the motion, segment by
-/// segment.
+/// Whether a term is about hands only, for which columns are stored. All other terms are read from the motion, segment
+/// by segment.
 bool is_scannable(const MovementTerm& term) noexcept;
 
-/// What is looked at of a row: a sign's strokes in order, of other rows their span.
-using Stretches = std::function<std::vector<TimeSpan>()>;
+/// The spans a row is measured over: a sign's strokes in order; for any other row, its span.
+using MeasuredSpans = std::function<std::vector<TimeSpan>()>;
 
-/// A condition on movement made ready for one database. Borrows the movement, which may be null: then nothing is known.
-/// For one thread.
+/// A condition on movement bound to one database. Borrows the movement; if it is null, nothing is known. For one
+/// thread.
 class MovementCheck {
  public:
   /// `condition` must have Field::movement.
   MovementCheck(const Condition& condition, const Movement* movement);
 
-  /// False also where what is asked for is not known. `stretches` is called where something is not stored. Throws
-  /// Error{corrupt} where a trace or motion is damaged, and what Movement::pause throws.
-  bool holds(const MovingRow& row, const Stretches& stretches);
+  /// Returns false also if the value is not known. `spans` is called if a value is not stored. Throws
+  /// Error{corrupt} if a trace or motion is damaged, and whatever Movement::pause throws.
+  bool holds(const MovingRow& row, const MeasuredSpans& spans);
 
-  /// Whether what it asks for may be stored as a column: it is about hands.
+  /// Whether the value may be stored as a column, that is, the term is about hands.
   bool scannable() const noexcept { return is_scannable(condition_->movement); }
-  /// Appends `first` + all rows of a recording for which it holds, and perhaps others (of `hand`: what either hand
-  /// does). False, and nothing, where something that it asks for is not stored.
+  /// Appends `first` plus each row of a recording for which the condition holds, and perhaps other rows (for `hand`:
+  /// those where either hand meets it). Returns false and appends nothing if a value it needs is not stored.
   bool scan(std::uint32_t recording, RowId first, std::vector<RowId>& rows);
 
  private:
-  struct Way {
+  struct Alternative {
     Point point;
     std::optional<Point> other;
-    bool own = false;          ///< `point` is there for `hand`: of a row of one hand it must be that
-    bool other_own = false;    ///< the same of `other`
-    ColumnValues column = {};  ///< of `recording_`; empty: from frames
+    bool own = false;          ///< `point` is a substitute for `hand`: for a row of one hand it must be that hand
+    bool other_own = false;    ///< the same for `other`
+    ColumnValues column = {};  ///< of `recording_`; empty: computed from frames
   };
-  /// How the number of a row answers.
+  /// How a row's value is tested.
   enum class Reading : std::uint8_t {
-    within,   ///< by the bounds
-    outside,  ///< by lying outside the bounds
-    set,      ///< by a bit that it has of the mask
-    state,    ///< by what the state number says
+    within,   ///< it lies within the bounds
+    outside,  ///< it lies outside the bounds
+    set,      ///< it has a bit of the mask
+    state,    ///< its state number is decoded
   };
-  /// Both included; no number lies within where low is above high, and what is no number nowhere.
+  /// Both included. No value lies within if low is above high; NaN never does.
   struct Bounds {
     float low, high;
     bool hold(float value) const noexcept { return low <= value && value <= high; }
   };
 
   void load(std::uint32_t recording);
-  float series_of(const MovingRow& row, const Stretches& stretches);
+  float series_of(const MovingRow& row, const MeasuredSpans& spans);
   static Reading reading_of(const Condition& condition, HandMeasure measure) noexcept;
   void append_fitting(std::span<const float> column, RowId first, std::vector<RowId>& rows) const;
   bool fits(float value) const;
   Bounds bounds_of_amount(std::uint32_t recording) const;
   Bounds bounds_of_zone(std::uint32_t recording) const;
-  float from_frames(const Way& way, std::uint32_t recording, std::span<const TimeSpan> stretches) const;
+  float from_frames(const Alternative& alternative, std::uint32_t recording, std::span<const TimeSpan> spans) const;
   void track(const Point& point, std::uint32_t recording, const HandTrace& trace, FrameRange frames,
              PointTrack& out) const;
 
   const Movement* movement_;
   const Condition* condition_;
-  std::vector<Way> ways_;                   ///< one of them has to hold
-  std::optional<std::uint32_t> recording_;  ///< of which columns and bounds are at hand
+  std::vector<Alternative> alternatives_;   ///< at least one must hold
+  std::optional<std::uint32_t> recording_;  ///< the one whose columns and bounds are loaded
   HandMeasure measure_ = HandMeasure::speed;
   Reading reading_ = Reading::within;
-  std::uint32_t mask_ = 0;   ///< where it is a set
-  Bounds bounds_{};          ///< of `recording_`
-  bool scaled_ = false;      ///< the value's unit is not the column's: it depends on the signer's shoulders
-  std::vector<float> told_;  ///< [row of `recording_`] of a track or the gaze; infinite: not looked at yet
+  std::uint32_t mask_ = 0;  ///< for Reading::set
+  Bounds bounds_{};         ///< of `recording_`
+  bool scaled_ = false;     ///< the value's unit differs from the column's: it depends on the signer's shoulder width
+  std::vector<float>
+      series_values_;  ///< [row of `recording_`] value of a track or the gaze; infinite: not computed yet
 };
 
 }  // namespace signweave

@@ -15,8 +15,8 @@
 
 namespace signweave {
 
-/// Gives a motion the face of somebody who opens the mouth and raises the brows again and again, and who never puffs
-/// the cheeks: that track is left out, as `face_csv::resampled` does.
+/// Gives a motion a face that repeatedly opens the mouth and raises the brows, and never puffs the cheeks: that track
+/// is omitted, as `face_csv::resampled` does.
 inline void add_face(Motion& motion, unsigned seed) {
   ScalarTrack jaw{.name = "jawOpen", .values = {}};
   ScalarTrack brows{.name = "browInnerUp", .values = {}};
@@ -29,7 +29,7 @@ inline void add_face(Motion& motion, unsigned seed) {
   motion.add_track(std::move(brows));
 }
 
-/// A person who moves by chance, as a motion with its rig and body.
+/// A randomly moving person, as a motion with its rig and body.
 struct TestMotion {
   Motion motion;
   SignerModel model;
@@ -42,13 +42,13 @@ struct TestMotion {
   }
 };
 
-/// Movement in memory, measured by what measures what is stored.
+/// Movement in memory, measured by the code that measures what is stored.
 class TestMovement : public Movement {
  public:
   enum class From { columns, frames };
   explicit TestMovement(From from = From::columns) : from_(from) {}
 
-  /// The next recording and its rows.
+  /// Adds the next recording with its rows.
   void add(TestMotion motion, const std::vector<MovementRow>& rows, const RecordingFeatures& features = {}) {
     recordings_.push_back({.motion = std::move(motion)});
     Recording& recording = recordings_.back();
@@ -57,9 +57,9 @@ class TestMovement : public Movement {
     recording.source = std::make_unique<MemorySource>(recording.motion.motion);
     recording.eyes = gaze_source(*recording.source, recording.motion.model.rig);
   }
-  /// How often values of tracks were read.
+  /// Number of reads of track values.
   std::size_t track_reads() const noexcept { return track_reads_; }
-  /// One number of one row of the first recording.
+  /// One value of one row of the first recording.
   float& at(Column column, RowId row) { return recordings_.front().columns[place_of(column)][row]; }
 
   ColumnValues column(Column column, std::uint32_t recording) const override {
@@ -116,8 +116,8 @@ class TestMovement : public Movement {
   std::vector<Recording> recordings_;
 };
 
-/// Two persons who move by chance, one in each recording of `weather_corpus`, the second with a face: so every example
-/// in docs/query.md about movement has an answer.
+/// Two randomly moving persons, one in each recording of `weather_corpus`, the second with a face, so every example in
+/// docs/query.md about movement has an answer.
 inline std::unique_ptr<TestMovement> weather_movement(const Segments& segments) {
   auto movement = std::make_unique<TestMovement>();
   for (std::uint32_t recording = 0; recording < segments.recording_count(); ++recording) {

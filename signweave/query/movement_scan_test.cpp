@@ -12,7 +12,7 @@
 namespace signweave {
 namespace {
 
-/// Numbers of the hands, the same for all that is asked of a side.
+/// Values of the hands, the same for every measure of a side.
 class TwoColumns : public Movement {
  public:
   std::array<std::vector<float>, 2> values;  ///< [Side]
@@ -26,7 +26,7 @@ class TwoColumns : public Movement {
   std::vector<PointTrack> points(std::uint32_t, std::span<const Part>, FrameRange) const override { return {}; }
 };
 
-/// Numbers around 1, some of which are 1, none, or infinite; few or most of them above it.
+/// Values around 1, some of which are 1, NaN, or infinite; few or most of them above it.
 std::vector<float> some_numbers(std::mt19937& random, std::size_t count) {
   std::vector<float> numbers(count);
   std::normal_distribution<float> around(std::array{-2.0f, 0.9f, 4.0f}[random() % 3], 0.6f);
@@ -41,7 +41,7 @@ std::vector<float> some_numbers(std::mt19937& random, std::size_t count) {
   return numbers;
 }
 
-/// Sets of up to 24 members as numbers, some of which are none; few or most of them with many members.
+/// Sets of up to 24 members as numbers, some of which are NaN; few or most of them with many members.
 std::vector<float> some_sets(std::mt19937& random, std::size_t count) {
   std::vector<float> sets(count);
   const bool sparse = random() % 2 == 0;
@@ -53,7 +53,7 @@ std::vector<float> some_sets(std::mt19937& random, std::size_t count) {
   return sets;
 }
 
-RC_GTEST_PROP(MovementScan, FindsTheRowsOfWhichEachHoldsHoweverMany, (std::uint32_t seed)) {
+RC_GTEST_PROP(MovementScan, FindsExactlyTheRowsForWhichItHolds, (std::uint32_t seed)) {
   std::mt19937 random(seed);
   const std::size_t count = random() % 700;
   TwoColumns numbers;

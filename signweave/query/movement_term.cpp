@@ -11,7 +11,7 @@
 namespace signweave {
 namespace {
 
-/// Joints that people call otherwise than the part that begins there.
+/// Joints whose common name differs from the part that begins there.
 struct JointName {
   std::string_view joint;
   std::string_view part;
@@ -92,7 +92,7 @@ std::string to_string(const MovementTerm& term) {
 
 std::string to_string(const Amount& amount) {
   constexpr std::string_view kUnits[] = {"", " m", " sw", " m/s", " m/s2", " deg"};
-  // The shortest digits that read back as the same number, never with an exponent.
+  // The shortest digits that parse to the same number, never with an exponent.
   std::array<char, 400> digits{};
   const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), amount.value, std::chars_format::fixed);
   return std::string(digits.data(), end.ptr).append(kUnits[static_cast<std::size_t>(amount.unit)]);

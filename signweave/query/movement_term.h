@@ -14,18 +14,18 @@
 
 namespace signweave {
 
-// The part of the syntax tree that speaks of movement (docs/query.md, "Movement" and "Query by example").
+// The part of the syntax tree that is about movement (docs/query.md, "Movement" and "Query by example").
 
 /// A point of the signer.
 struct Point {
   enum class Kind : std::uint8_t {
-    hand,  ///< the palm of a hand of the segment's own: either of both where both sign; of an annotation: either
+    hand,  ///< the palm of the segment's own hand: either one if both sign, or for an annotation
     palm,  ///< the palm of the hand on `side`
-    part,  ///< where `part` begins
+    part,  ///< the origin of `part`
   };
   Kind kind = Kind::palm;
-  Side side = Side::right;  ///< of a palm
-  Part part = Part::head;   ///< of a part
+  Side side = Side::right;  ///< for a palm
+  Part part = Part::head;   ///< for a part
 
   static constexpr Point own_hand() noexcept { return {.kind = Kind::hand}; }
   static constexpr Point palm(Side side) noexcept { return {.kind = Kind::palm, .side = side}; }
@@ -33,25 +33,25 @@ struct Point {
   friend bool operator==(const Point&, const Point&) = default;
 };
 
-/// What is asked of a point, or of what a face does.
+/// What is measured of a point, of the face or of the gaze.
 enum class Quantity : std::uint8_t {
-  speed,  ///< the peak, or the least
+  speed,  ///< peak, or minimum
   mean_speed,
-  acceleration,  ///< the peak, or the least
+  acceleration,  ///< peak, or minimum
   mean_acceleration,
-  path,          ///< its length
-  displacement,  ///< straight from begin to end
-  distance,      ///< from another point: the least, the most, or that at begin or end
+  path,          ///< length
+  displacement,  ///< straight line from begin to end
+  distance,      ///< to another point: minimum, maximum, or at the begin or end
   contact,       ///< what a hand touches at some moment
   begin,         ///< a component at the first moment
   end,           ///< a component at the last moment
-  max,           ///< the most that a component is at any moment
-  min,           ///< the least
-  any,           ///< a component at some moment, whichever
-  enters,        ///< a zone that the point comes into
-  track,         ///< of a scalar track: the most, or the component
+  max,           ///< maximum of a component
+  min,           ///< minimum of a component
+  any,           ///< a component at any one moment
+  enters,        ///< a zone the point enters
+  track,         ///< of a scalar track: maximum, or the component
   mean_track,
-  gaze,  ///< of an angle of the gaze: the most, or the component
+  gaze,  ///< of an angle of the gaze: maximum, or the component
   mean_gaze,
 };
 inline constexpr std::array kQuantities = {
@@ -60,7 +60,7 @@ inline constexpr std::array kQuantities = {
     Quantity::begin, Quantity::end,          Quantity::max,          Quantity::min,
     Quantity::any,   Quantity::enters,       Quantity::track,        Quantity::mean_track,
     Quantity::gaze,  Quantity::mean_gaze};
-/// Whether it is a scalar track or the gaze: one number a frame, without a point.
+/// Whether it is a scalar track or the gaze: one value per frame, without a point.
 constexpr bool is_series(Quantity quantity) noexcept {
   return quantity >= Quantity::track;
 }
@@ -68,7 +68,7 @@ constexpr bool is_gaze(Quantity quantity) noexcept {
   return quantity >= Quantity::gaze;
 }
 
-/// Whether a component of the point's place or of the hand belongs to it: `begin(right_hand)` says nothing yet.
+/// Whether it needs a component of the point's position or of the hand: `begin(right_hand)` alone is incomplete.
 constexpr bool needs_component(Quantity quantity) noexcept {
   return quantity >= Quantity::begin && quantity <= Quantity::enters;
 }
@@ -95,14 +95,14 @@ enum class GazeAngle : std::uint8_t { yaw, pitch };
 struct MovementTerm {
   Quantity quantity = Quantity::speed;
   Point point;
-  std::optional<Point> other;  ///< of a distance only
+  std::optional<Point> other;  ///< for a distance only
   Component component = Component::none;
   std::string track;                 ///< name of a scalar track
-  GazeAngle angle = GazeAngle::yaw;  ///< of the gaze
+  GazeAngle angle = GazeAngle::yaw;  ///< for the gaze
   friend bool operator==(const MovementTerm&, const MovementTerm&) = default;
 };
 
-/// What a number counts. All others are turned into these by the parser.
+/// The unit of a number. The parser converts all other units to these.
 enum class Unit : std::uint8_t {
   none,
   metres,
@@ -119,22 +119,22 @@ struct Amount {
   friend bool operator==(const Amount&, const Amount&) = default;
 };
 
-/// A piece of a recording that others are held against: like("meteo"@1200..3400, right_hand).
+/// A span of a recording that other spans are compared with: like("meteo"@1200..3400, right_hand).
 struct Example {
   std::string recording;
   TimeSpan span{};            ///< annotation time
-  std::vector<Point> points;  ///< what is compared; empty: both hands, as far as the example has them
+  std::vector<Point> points;  ///< points to compare; empty: both hands, as far as the example has them
   friend bool operator==(const Example&, const Example&) = default;
 };
 
-/// What the value of a term can be.
+/// The kind of value a term is compared with.
 enum class ValueKind : std::uint8_t {
   speed,         ///< an amount in m/s
   acceleration,  ///< an amount in m/s2
   length,        ///< an amount in m or sw
-  height,        ///< the same, or a named height
-  across,        ///< the same, or left, centre, right
-  reach,         ///< the same, or near, far
+  height,        ///< a length, or a named height
+  across,        ///< a length, or left, centre, right
+  reach,         ///< a length, or near, far
   share,         ///< a bare number
   angle,         ///< an amount in degrees
   facing,        ///< up, down, …
@@ -151,7 +151,7 @@ std::string_view word_of(Quantity quantity) noexcept;
 std::string_view word_of(Component component) noexcept;
 std::string_view word_of(GazeAngle angle) noexcept;
 std::string_view word_of(Facing facing) noexcept;
-/// Of one contact.
+/// The word of one contact.
 std::string_view word_of(Contact contact) noexcept;
 inline std::string_view word_of(Height height) noexcept {
   return name_of(height);
@@ -163,10 +163,10 @@ inline std::string_view word_of(Reach reach) noexcept {
   return name_of(reach);
 }
 
-/// The point of a name: "hand", "right_hand", "left_elbow", "head", "right_index_tip", or that of a part
+/// The point with a name: "hand", "right_hand", "left_elbow", "head", "right_index_tip", or that of a part
 /// ("left_forearm"). `right_hand` is the palm; the wrist is `right_wrist`.
 std::optional<Point> point_named(std::string_view word);
-/// All names that `to_string` gives.
+/// All names that `to_string` returns.
 std::vector<std::string> point_words();
 
 }  // namespace signweave

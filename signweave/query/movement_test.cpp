@@ -27,7 +27,7 @@ constexpr MovementRow phase(PhaseKind kind, RowId parent, TimeSpan span) {
   return {.kind = RowKind::phase, .phase = kind, .parent = parent, .span = span};
 }
 
-TEST(Movement, EveryColumnHasAPlaceOfItsOwn) {
+TEST(Movement, EveryColumnHasItsOwnIndex) {
   std::set<std::size_t> places;
   for (std::size_t i = 0; i <= static_cast<std::size_t>(HandMeasure::end_distance); ++i) {
     for (const Side side : kSides) places.insert(place_of({static_cast<HandMeasure>(i), side}));
@@ -56,7 +56,7 @@ TEST(Movement, AStateIsOneNumber) {
   }
 }
 
-TEST(Movement, ARowShorterThanAFrameHasOneAndOneOutsideNone) {
+TEST(Movement, AShortRowHasOneFrameAndOneOutsideTheMotionNone) {
   const FrameClock clock{.frame_time = Seconds(0.1)};
   EXPECT_EQ(measured_frames({200ms, 500ms}, clock, 10), (FrameRange{2, 5}));
   EXPECT_EQ(measured_frames({200ms, 210ms}, clock, 10), (FrameRange{2, 3}));
@@ -64,7 +64,7 @@ TEST(Movement, ARowShorterThanAFrameHasOneAndOneOutsideNone) {
   EXPECT_TRUE(measured_frames({1'800ms, 2'000ms}, clock, 10).empty());
 }
 
-TEST(Movement, PhasesHaveTheirFeaturesSignsThoseOfTheirStrokesOthersWhatTheTraceSays) {
+TEST(Movement, PhasesUseFeaturesSignsTheirStrokesAndOthersTheTrace) {
   const TestMotion test(240, 11);
   const std::vector<MovementRow> rows = {annotation({0ms, 1'000ms}),
                                          sign({500ms, 2'000ms}),
@@ -104,7 +104,7 @@ TEST(Movement, PhasesHaveTheirFeaturesSignsThoseOfTheirStrokesOthersWhatTheTrace
   EXPECT_EQ(at(HandMeasure::path, 0), over(track, trace.rate, trace.shoulder_width).path_length);
 }
 
-TEST(Movement, WhatIsReachedAtAnyMomentIsWhatTheFramesSay) {
+TEST(Movement, TheExtentIsThatOfTheFrames) {
   const TestMotion test(240, 11);
   const HandTrace trace = trace_hands(test.motion, test.model);
   const std::vector<MovementRow> rows = {annotation({500ms, 2'500ms})};
@@ -175,7 +175,7 @@ TEST(Movement, AZoneIsEnteredFromOutsideOnly) {
   EXPECT_EQ(sum.extent().height.least, 1.5f);
 }
 
-TEST(Movement, AHandWithoutFingersHasNoOpennessAndPointsNowhere) {
+TEST(Movement, AHandWithoutFingersHasNoOpennessAndNoDirection) {
   const SignerBody body;
   ExtentSum sum(body);
   sum.add({.state = {.openness = 0, .palm = Facing::unknown}});
@@ -185,7 +185,7 @@ TEST(Movement, AHandWithoutFingersHasNoOpennessAndPointsNowhere) {
   EXPECT_EQ(measure_of(course, HandMeasure::facings, body), 0);
 }
 
-TEST(Movement, SeveralStretchesAreJoinedByPeaksSumsAndMeans) {
+TEST(Movement, SeveralSpansAreJoinedByPeaksSumsAndMeans) {
   std::array<Course, 2> courses;
   courses[0].over.peak_speed = 1;
   courses[1].over.peak_speed = 3;
@@ -207,10 +207,10 @@ TEST(Movement, SeveralStretchesAreJoinedByPeaksSumsAndMeans) {
   EXPECT_EQ(all.extent.height.least, -1);
   EXPECT_EQ(all.extent.height.most, 2);
   EXPECT_EQ(all.extent.in, bit_of(Height::waist) | bit_of(Height::chin));
-  EXPECT_EQ(all.extent.into, 0) << "what lies between two stretches is not looked at";
+  EXPECT_EQ(all.extent.into, 0) << "the frames between two spans are not examined";
 }
 
-TEST(Movement, WhatLiesOutsideTheMotionOrHasNoStrokeIsNotKnown) {
+TEST(Movement, RowsOutsideTheMotionAndSignsWithoutStrokeAreNotKnown) {
   const TestMotion test(60, 3);
   const std::vector<MovementRow> rows = {annotation({5'000ms, 6'000ms}),
                                          sign({0ms, 3'000ms}),
@@ -242,7 +242,7 @@ Condition condition(const std::string& text) {
   return parse(text).elements.front().term.expression.condition;
 }
 
-/// Three rows of three hands with numbers of our own.
+/// Three rows of three hands with chosen values.
 class Check : public testing::Test {
  protected:
   Check() : movement_(TestMovement::From::columns) {
@@ -278,11 +278,11 @@ class Check : public testing::Test {
     RowId row = 0;
     for (const float value : values) movement_.at(column, row++) = value;
   }
-  /// The rows for which it holds: the first is of both hands, the second of the right, the third of the left.
+  /// The rows for which it holds: the first has both hands, the second the right, the third the left.
   std::vector<RowId> rows(const std::string& text) const {
     const Condition parsed = condition(text);
     MovementCheck check(parsed, &movement_);
-    const Stretches none = [&]() -> std::vector<TimeSpan> {
+    const MeasuredSpans none = [&]() -> std::vector<TimeSpan> {
       ADD_FAILURE() << text;
       return {};
     };
@@ -297,7 +297,7 @@ class Check : public testing::Test {
   float chin_ = 0;  ///< where its zone begins
 };
 
-TEST_F(Check, ComparesWhatIsReachedAtAnyMoment) {
+TEST_F(Check, ComparesExtents) {
   using Rows = std::vector<RowId>;
   EXPECT_EQ(rows("max(right_hand).height >= chin"), (Rows{0}));
   EXPECT_EQ(rows("max(right_hand).height > shoulder"), (Rows{0}));
@@ -311,15 +311,15 @@ TEST_F(Check, ComparesWhatIsReachedAtAnyMoment) {
   EXPECT_EQ(rows("max(right_hand).x = left"), (Rows{1}));
   EXPECT_EQ(rows("max(right_hand).x != left"), (Rows{0}));
   EXPECT_EQ(rows("min(right_hand).height < -1.5"), (Rows{1}));
-  EXPECT_EQ(rows("any(right_hand).height > shoulder"), (Rows{0})) << "where the most is";
-  EXPECT_EQ(rows("any(right_hand).height < -1.5"), (Rows{1})) << "where the least is";
+  EXPECT_EQ(rows("any(right_hand).height > shoulder"), (Rows{0})) << "where the maximum is";
+  EXPECT_EQ(rows("any(right_hand).height < -1.5"), (Rows{1})) << "where the minimum is";
   EXPECT_EQ(rows("any(right_hand).height = chin"), (Rows{0}));
   EXPECT_EQ(rows("any(right_hand).height = shoulder"), (Rows{0, 1}));
   EXPECT_EQ(rows("any(right_hand).height != shoulder"), (Rows{0})) << "at some moment elsewhere";
   EXPECT_EQ(rows("any(right_hand).x = left"), (Rows{1}));
   EXPECT_EQ(rows("any(right_hand).forward = far"), (Rows{1}));
   EXPECT_EQ(rows("any(right_hand).palm = up"), (Rows{0}));
-  EXPECT_EQ(rows("any(right_hand).palm != up"), Rows()) << "nor has a hand without fingers a palm that is not up";
+  EXPECT_EQ(rows("any(right_hand).palm != up"), Rows()) << "a hand without fingers has no palm that is not up either";
   EXPECT_EQ(rows("any(right_hand).fingers != up"), (Rows{0}));
   EXPECT_EQ(rows("any(right_hand).contact = head"), (Rows{0}));
   EXPECT_EQ(rows("enters(right_hand, chin)"), (Rows{0}));
@@ -331,7 +331,7 @@ TEST_F(Check, ComparesWhatIsReachedAtAnyMoment) {
   EXPECT_EQ(rows("min(distance(right_hand, left_hand)) < 50 cm"), (Rows{0}));
 }
 
-TEST_F(Check, ComparesWhatIsStored) {
+TEST_F(Check, ComparesStoredColumns) {
   using Rows = std::vector<RowId>;
   EXPECT_EQ(rows("speed(right_hand) > 1 m/s"), (Rows{1}));
   EXPECT_EQ(rows("speed(right_hand) >= 1 m/s"), (Rows{0, 1}));
@@ -358,7 +358,7 @@ TEST_F(Check, ComparesWhatIsStored) {
   EXPECT_EQ(rows("distance(hand, left_hand) < 20 cm"), (Rows{0}));
 }
 
-TEST_F(Check, AnotherUnitIsTurnedByTheSignersShoulders) {
+TEST_F(Check, AnotherUnitIsConvertedByTheShoulderWidth) {
   const float width = movement_.shoulder_width(0);
   const auto text = [](const char* what, double value, const char* unit) {
     return fmt::format("{} {:.6f} {}", what, value, unit);
@@ -371,9 +371,9 @@ TEST_F(Check, AnotherUnitIsTurnedByTheSignersShoulders) {
   EXPECT_EQ(rows(text(near.c_str(), 0.099 / static_cast<double>(width), "sw")), (std::vector<RowId>{}));
 }
 
-TEST_F(Check, ANumberThatNoFloatIsIsComparedExactly) {
+TEST_F(Check, ANumberThatIsNotAFloatIsComparedExactly) {
   set({HandMeasure::speed, Side::right}, {0.1f, std::nextafter(0.1f, 1.0f), std::nextafter(0.1f, 0.0f)});
-  // The float next to 0.1 is a little above it.
+  // The float next to 0.1 is slightly above it.
   EXPECT_EQ(rows("speed(right_hand) > 0.1 m/s"), (std::vector<RowId>{0, 1}));
   EXPECT_EQ(rows("speed(right_hand) >= 0.1 m/s"), (std::vector<RowId>{0, 1}));
   EXPECT_EQ(rows("speed(right_hand) <= 0.1 m/s"), (std::vector<RowId>{2}));
@@ -385,10 +385,10 @@ TEST(Movement, WithoutMovementNothingHolds) {
   EXPECT_FALSE(MovementCheck(parsed, nullptr).holds({.row = 0}, {}));
 }
 
-/// Some rows of two recordings that move by chance, and the stretches of each.
+/// Some rows of two recordings with random movement, and the spans of each.
 struct Rows {
   std::vector<MovementRow> rows;
-  std::vector<std::vector<TimeSpan>> stretches;
+  std::vector<std::vector<TimeSpan>> spans;
 };
 Rows some_rows(std::mt19937& random) {
   Rows result;
@@ -398,7 +398,7 @@ Rows some_rows(std::mt19937& random) {
     const TimeSpan span{begin, begin + time(1)};
     if (random() % 2 == 0) {
       result.rows.push_back(annotation(span));
-      result.stretches.push_back({span});
+      result.spans.push_back({span});
       continue;
     }
     const auto parent = static_cast<RowId>(result.rows.size());
@@ -406,15 +406,15 @@ Rows some_rows(std::mt19937& random) {
     result.rows.push_back(sign(span));
     result.rows.push_back(phase(PhaseKind::stroke, parent, {span.begin, middle}));
     result.rows.push_back(phase(random() % 2 == 0 ? PhaseKind::stroke : PhaseKind::hold, parent, {middle, span.end}));
-    result.stretches.push_back({result.rows[parent + 1].span});
-    if (result.rows.back().phase == PhaseKind::stroke) result.stretches.back().push_back(result.rows.back().span);
-    result.stretches.push_back({result.rows[parent + 1].span});
-    result.stretches.push_back({result.rows[parent + 2].span});
+    result.spans.push_back({result.rows[parent + 1].span});
+    if (result.rows.back().phase == PhaseKind::stroke) result.spans.back().push_back(result.rows.back().span);
+    result.spans.push_back({result.rows[parent + 1].span});
+    result.spans.push_back({result.rows[parent + 2].span});
   }
   return result;
 }
 
-RC_GTEST_PROP(Movement, WhatIsStoredWhatIsComputedAndWhatIsScannedAgree, (std::uint32_t seed)) {
+RC_GTEST_PROP(Movement, StoredComputedAndScannedValuesAgree, (std::uint32_t seed)) {
   std::mt19937 random(seed);
   const Rows rows = some_rows(random);
   TestMovement stored(TestMovement::From::columns);
@@ -431,9 +431,9 @@ RC_GTEST_PROP(Movement, WhatIsStoredWhatIsComputedAndWhatIsScannedAgree, (std::u
     for (RowId row = 0; row < rows.rows.size(); ++row) {
       const unsigned hand = random() % 3;
       const MovingRow moving{.row = row, .any_hand = hand == 2, .hand = static_cast<Side>(hand % 2)};
-      const Stretches stretches = [&] { return rows.stretches[row]; };
-      const bool holds = from_columns.holds(moving, stretches);
-      RC_ASSERT(holds == from_frames.holds(moving, stretches));
+      const MeasuredSpans spans = [&] { return rows.spans[row]; };
+      const bool holds = from_columns.holds(moving, spans);
+      RC_ASSERT(holds == from_frames.holds(moving, spans));
       if (holds) found.push_back(row);
     }
     std::vector<RowId> scanned;

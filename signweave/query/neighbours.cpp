@@ -8,14 +8,14 @@ namespace {
 
 using RowRange = SegmentTable::RowRange;
 
-/// The rows that may stand in a sequence with `row`: the group it lies in.
+/// The rows that may follow or precede `row` in a sequence: its group.
 RowRange group_of(const SegmentTable& table, RowId row) noexcept {
   const SegmentTable::TierRows& tier = table.tier_rows_of(row);
   if (table.kind(row) == RowKind::unit) return tier.units();
   return table.extra(row) ? tier.extra() : tier.own();
 }
 
-/// Extra rows of different sorts or of the signs of different tiers share a group: whether two are of one sort.
+/// Extra rows of different kinds, or of the signs of different tiers, share a group: whether two are of the same kind.
 bool same_sort(const SegmentTable& table, RowId a, RowId b) noexcept {
   if (!table.extra(a) || table.kind(a) == RowKind::unit) return true;
   return table.inferred(a) == table.inferred(b) && table.tier(table.parent(a)) == table.tier(table.parent(b));
@@ -35,7 +35,8 @@ RowId step_in_group(const SegmentTable& table, RowId row, int by) noexcept {
 
 RowId step(const SegmentTable& table, RowId row, int by) noexcept {
   if (!table.extra(row) || !table.inferred(row)) return step_in_group(table, row, by);
-  // Neighbours are the signs: an inferred stroke is not next to the one beyond a sign that has phases of its own.
+  // Neighbourhood is defined on the signs: an inferred stroke is not next to the one beyond a sign that has phases of
+  // its own.
   const RowId sign = step_in_group(table, table.parent(row), by);
   if (sign == kNoRow) return kNoRow;
   for (const RowId child : table.children(sign)) {
@@ -61,7 +62,7 @@ std::vector<RowId> previous_rows(const SegmentTable& table, RowId row) {
   };
   const RowId stepped = step(table, row, -1);
   offer(stepped);
-  // A sign follows the sign before it, and the annotation between them that is no sign.
+  // A sign follows the previous sign, and also the annotation between them that is not a sign.
   const RowRange group = group_of(table, row);
   if (!table.extra(row) && row > group.begin && row - 1 != stepped) offer(row - 1);
   return result;

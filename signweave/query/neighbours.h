@@ -11,31 +11,31 @@
 namespace signweave {
 
 // Steps from one row of a segment table to others, by time. All are binary searches on the tiers of one recording
-// (linear in the tier only where a faulty document has annotations that overlap on one tier).
+// (linear in the tier only if annotations of a faulty document overlap on one tier).
 
-/// The row that follows directly: of a sign the next sign of its tier (annotations that are no signs, for their label
-/// is empty, are passed over); of any other annotation the next one of its tier; of an inferred stroke that of the next
-/// sign, if that is inferred too. None where there is none, or it is of another sort.
+/// The row that directly follows. Sign: the next sign of its tier (annotations with an empty label are not signs and
+/// are skipped). Other annotation: the next one of its tier. Inferred stroke: the stroke of the next sign, if that is
+/// inferred too. kNoRow if there is no such row, or it is of another kind.
 RowId next_row(const SegmentTable& table, RowId row);
 /// The rows whose `next_row` is `row`: at most two.
 std::vector<RowId> previous_rows(const SegmentTable& table, RowId row);
 
-/// The rows of the same tier (inferred strokes among themselves) after `row` whose begin is `gap` away from its end,
-/// ascending. `gap` has a bound.
+/// The rows of the same tier (inferred strokes among themselves) after `row` whose begin is `gap` after its end,
+/// ascending. `gap` must have a bound.
 std::vector<RowId> rows_after(const SegmentTable& table, RowId row, const Interval& gap);
-/// The rows before `row` from which it is `gap` away, ascending.
+/// The rows before `row` whose end is `gap` before its begin, ascending.
 std::vector<RowId> rows_before(const SegmentTable& table, RowId row, const Interval& gap);
 
-/// The first row of a range, in which no two overlap, that ends at `time` or later.
+/// The first row of a range that ends at `time` or later. No two rows of the range may overlap.
 RowId first_ending_at_or_after(const SegmentTable& table, SegmentTable::RowRange range, Milliseconds time) noexcept;
 
-/// Where a search on one tier stood last: the next one mostly goes on from there.
+/// The position of the last search on one tier; the next search usually continues from there.
 struct TierCursor {
   const SegmentTable::TierRows* tier = nullptr;
   RowId at = 0;
 };
 
-/// The same as `first_ending_at_or_after(table, tier.own(), time)`, from where the cursor stands; sets it.
+/// The same as `first_ending_at_or_after(table, tier.own(), time)`, starting at the cursor, which is updated.
 inline RowId first_ending_at_or_after(const SegmentTable& table, const SegmentTable::TierRows& tier, Milliseconds time,
                                       TierCursor& cursor) noexcept {
   constexpr RowId kSteps = 8;
@@ -51,7 +51,7 @@ inline RowId first_ending_at_or_after(const SegmentTable& table, const SegmentTa
   return cursor.at = first_ending_at_or_after(table, {own.begin, row}, time);
 }
 
-/// Whether two spans stand in a relation (`Link::overlaps` and the ones after it).
+/// Whether two spans are in a relation (`Link::overlaps` and the ones after it).
 inline bool related(TimeSpan one, Link link, TimeSpan other) noexcept {
   switch (link) {
     case Link::overlaps:
@@ -74,8 +74,8 @@ inline bool related(TimeSpan one, Link link, TimeSpan other) noexcept {
   return false;
 }
 
-/// Calls `use(row)` for the rows of one range of a tier that share time or a bound with `span`. Stops where `use`
-/// returns false, and then returns false.
+/// Calls `use(row)` for the rows of one range of a tier that share time or a bound with `span`. Stops if `use` returns
+/// false, and then returns false.
 template <typename Use>
 bool for_rows_around(const SegmentTable& table, const SegmentTable::TierRows& tier, SegmentTable::RowRange range,
                      TimeSpan span, Use&& use) {
@@ -86,7 +86,7 @@ bool for_rows_around(const SegmentTable& table, const SegmentTable::TierRows& ti
   return true;
 }
 
-/// The same for every row of a recording: every row for which `related` may hold.
+/// The same for all rows of a recording: a superset of the rows for which `related` holds.
 template <typename Use>
 void for_rows_around(const SegmentTable& table, std::uint32_t recording, TimeSpan span, Use&& use) {
   for (const SegmentTable::TierRows& tier : table.tiers_of(recording)) {

@@ -25,7 +25,7 @@ constexpr int kDeepest = 200;
 constexpr std::size_t kMostPlaces = 64;
 constexpr int kMostSequences = 16;
 constexpr int kMostVariables = 64;
-constexpr int kMostRegexes = 64;  ///< each remembers one byte per label of the database while it is answered
+constexpr int kMostRegexes = 64;  ///< each stores one byte per label of the database while the query runs
 
 bool is_time(Field field) noexcept {
   return field >= Field::duration && field <= Field::end;
@@ -43,7 +43,7 @@ bool has_variable(const Condition& condition) noexcept {
   return std::holds_alternative<QueryVariable>(condition.value);
 }
 
-/// How many such conditions are joined by `&` alone.
+/// The number of such conditions that are joined by `&` only.
 int outermost(const Expression& expression, bool (*such)(const Condition&) noexcept) noexcept {
   if (expression.kind == Expression::Kind::condition) return such(expression.condition) ? 1 : 0;
   if (expression.kind != Expression::Kind::all) return 0;
@@ -77,21 +77,21 @@ class Parser {
       std::ranges::move(next.elements, std::back_inserter(result.elements));
       std::ranges::move(next.gaps, std::back_inserter(result.gaps));
       if (result.elements.size() > kMostPlaces) {
-        in_.fail(last, fmt::format("a sequence of more than {} places; ask for a shorter one", kMostPlaces));
+        in_.fail(last, fmt::format("a sequence of more than {} places; shorten it", kMostPlaces));
       }
     }
     return result;
   }
 
-  /// A part, and its relations.
+  /// A part and its relations.
   PhaseQuery element() {
-    Part result = part();
+    ParsedPart result = part();
     Element& last = result.query.elements.back();
     while (const std::optional<Link> link = next_relation()) {
       in_.take();
       const int before = examples_;
-      Part partner = part();
-      if (examples_ > before) in_.fail(example_, "like(…) orders what is before a relation; move it there");
+      ParsedPart partner = part();
+      if (examples_ > before) in_.fail(example_, "like(…) must be in the part before a relation; move it there");
       if (result.group && !result.own) last.groups.push_back({.places = result.query.elements.size()});
       result.own = true;
       std::vector<Relation>& relations = result.group ? last.groups.back().relations : last.relations;
@@ -103,7 +103,7 @@ class Parser {
         count_sequence();
       }
       if (relations.size() > kMostPlaces) {
-        in_.fail(in_.peek().begin, fmt::format("more than {} relations of one segment; ask in parts", kMostPlaces));
+        in_.fail(in_.peek().begin, fmt::format("more than {} relations of one segment; split the query", kMostPlaces));
       }
     }
     return std::move(result.query);
@@ -120,18 +120,18 @@ class Parser {
     return query.elements.size() == 1 && first.relations.empty() && first.groups.empty();
   }
 
-  /// No more than an expression.
+  /// Whether the query is only an expression.
   static bool is_plain(const PhaseQuery& query) noexcept {
     return is_term(query) && !query.elements.front().term.marked;
   }
-  /// What stands between arrows and relations.
-  struct Part {
+  /// A part between arrows and relations.
+  struct ParsedPart {
     PhaseQuery query;
     bool group = false;  ///< a sequence or relation in parentheses
-    bool own = false;    ///< the last of its groups is that
+    bool own = false;    ///< its last group is this sequence or relation
   };
 
-  Part part() {
+  ParsedPart part() {
     const std::size_t begin = in_.peek().begin;
     const bool marked = in_.accept("@");
     if (marked) mark(begin);
@@ -139,35 +139,35 @@ class Parser {
     const int variables = variables_;
     std::optional<Expression> first;
     if (in_.next_is("(")) {
-      Part result{parenthesised(), true, false};
+      ParsedPart result{parenthesised(), true, false};
       if (!is_plain(result.query)) {
         finish_group(result, marked);
         return result;
       }
       first = std::move(result.query.elements.front().term.expression);
     }
-    Part result;
+    ParsedPart result;
     result.query.elements.push_back({{expression(std::move(first)), marked}, {}});
     const Expression& whole = result.query.elements.front().term.expression;
     if (outermost(whole, has_variable) != variables_ - variables) {
-      in_.fail(variable_, "a variable is joined to the conditions of a place with & only, outside of |, ! and links");
+      in_.fail(variable_, "join a variable to the conditions of a place with & only, outside |, ! and links");
     }
     check_tiers(whole, begin);
     if (outermost(whole, is_example) != examples_ - examples) {
       in_.fail(example_,
-               "like(…) is no condition, it orders the answers; join it to the conditions of a place with &, "
-               "outside of |, ! and links");
+               "like(…) is not a condition but orders the answers; join it to the conditions of a place with &, "
+               "outside |, ! and links");
     }
     return result;
   }
 
   void mark(std::size_t at) {
-    if (marked_) in_.fail(at, "a second @; mark one part only as the answer");
+    if (marked_) in_.fail(at, "a second @; mark only one part as the answer");
     marked_ = true;
   }
 
   /// "& duration > 1s" after a sequence in parentheses.
-  void finish_group(Part& part, bool marked) {
+  void finish_group(ParsedPart& part, bool marked) {
     Group group{.places = part.query.elements.size(), .marked = marked};
     while (in_.next_is("&") || in_.next_is("|")) {
       const std::size_t at = in_.peek().begin;
@@ -176,24 +176,24 @@ class Parser {
       const std::optional<Field> field = word.kind == Kind::word ? value_of(kFields, word.text) : std::nullopt;
       if (!both || !field || !is_time(*field)) {
         in_.fail(at,
-                 "a sequence or relation in parentheses is one segment, which only & duration, begin and end go on "
-                 "about; write other conditions inside, and alternatives as queries of their own");
+                 "a sequence or relation in parentheses is one segment, to which only & duration, begin and end "
+                 "apply; write other conditions inside, and alternatives as separate queries");
       }
       in_.take();
       if (in_.next_is("("))
-        in_.fail(word.begin, "movement of a whole sequence; ask for it of one of its places, inside");
+        in_.fail(word.begin, "a condition on the movement of a whole sequence; put it on one of its places, inside");
       group.conditions.push_back(condition(*field));
     }
     part.own = marked || !group.conditions.empty();
     if (part.own) part.query.elements.back().groups.push_back(std::move(group));
   }
 
-  /// `first`: what has been read of it already.
+  /// `first`: the part of it that is already parsed.
   Expression expression(std::optional<Expression> first = std::nullopt) {
     return joined(Expression::Kind::any, "|", first);
   }
 
-  /// Operands of `|`, which are operands of `&`, which are single.
+  /// Operands of `|`, which are operands of `&`, which are single conditions.
   Expression joined(Expression::Kind kind, std::string_view symbol, std::optional<Expression>& read) {
     const auto operand = [&] {
       if (kind == Expression::Kind::any) return joined(Expression::Kind::all, "&", read);
@@ -215,8 +215,8 @@ class Parser {
       PhaseQuery inside = parenthesised();
       if (is_plain(inside)) return std::move(inside.elements.front().term.expression);
       in_.fail(begin,
-               "a sequence or relation in parentheses is one segment and no condition; it stands first in its part, "
-               "or as overlaps(…), during(…), starts(…), ends(…), equals(…)");
+               "a sequence or relation in parentheses is a segment, not a condition; put it first in its part, "
+               "or inside overlaps(…), during(…), starts(…), ends(…) or equals(…)");
     }
     Nesting nesting(*this, next.begin);
     Expression result;
@@ -248,7 +248,7 @@ class Parser {
    public:
     Nesting(Parser& parser, std::size_t at) : depth_(parser.depth_) {
       if (++depth_ > kDeepest) {
-        parser.in_.fail(at, fmt::format("more than {} levels of nesting; ask in parts", kDeepest));
+        parser.in_.fail(at, fmt::format("more than {} levels of nesting; split the query", kDeepest));
       }
     }
     ~Nesting() { --depth_; }
@@ -294,20 +294,20 @@ class Parser {
     const bool marked = marked_;
     PhaseQuery inside = sequence();
     in_.expect(")", "close the parenthesis, or join conditions with & or |");
-    if (marked_ != marked) in_.fail(begin, "an @ inside of a condition; it marks a part of what is asked for");
+    if (marked_ != marked) in_.fail(begin, "an @ inside a condition; @ marks a part of the query as the answer");
     if (is_plain(inside)) {
       link.operands.push_back(std::move(inside.elements.front().term.expression));
     } else if (is_relation(link.link)) {
       link.sequence.push_back(std::move(inside));
       count_sequence();
     } else {
-      in_.fail(begin, "a sequence or relation has no parent and no children; ask for them of one of its places");
+      in_.fail(begin, "a sequence or relation has no parent or children; put the condition on one of its places");
     }
   }
 
   void count_sequence() {
     if (++sequences_ <= kMostSequences) return;
-    in_.fail(in_.peek().begin, fmt::format("more than {} sequences in relations; ask in parts", kMostSequences));
+    in_.fail(in_.peek().begin, fmt::format("more than {} sequences in relations; split the query", kMostSequences));
   }
 
   void check_tiers(const Expression& expression, std::size_t begin) {
@@ -365,7 +365,7 @@ class Parser {
       return;
     }
     if (token.kind != Kind::text && token.kind != Kind::word) {
-      const std::string_view hint = token.kind == Kind::regex  ? "a regular expression stands after =~"
+      const std::string_view hint = token.kind == Kind::regex  ? "write a regular expression after =~"
                                     : is_time(condition.field) ? "write a time such as 300ms or 1.5s"
                                                                : "write a text in double quotes";
       in_.fail(token.begin, fmt::format("expected a value after '{}', found {}; {}", word_of(condition.compare),
@@ -403,12 +403,12 @@ class Parser {
                                         printable(token.flags)));
     }
     if (const std::unique_ptr<RE2> compiled = compile(result); !compiled->ok()) {
-      in_.fail(token.begin, fmt::format("regular expression: {}; mend it (RE2 syntax)", printable(compiled->error())));
+      in_.fail(token.begin, fmt::format("regular expression: {}; fix it (RE2 syntax)", printable(compiled->error())));
     }
     return result;
   }
 
-  /// A sign and a phase lie on different tiers and so are never neighbours: say it rather than answer nothing.
+  /// A sign and a phase are on different tiers and therefore never neighbours: an error is better than an empty answer.
   void check_neighbours(const Element& before, const Element& after, std::size_t arrow) {
     const auto only_phases = [](const Element& element) {
       const Expression& expression = element.term.expression;
@@ -421,7 +421,7 @@ class Parser {
     };
     if ((only_phases(before) && only_signs(after)) || (only_signs(before) && only_phases(after))) {
       in_.fail(arrow,
-               "a sequence of a sign and a phase, which lie on different tiers; add a phase condition to both "
+               "a sequence of a sign and a phase, which are on different tiers; add a phase condition to both "
                "sides or to neither");
     }
   }
@@ -432,9 +432,9 @@ class Parser {
     for (std::string& word : movement_words()) {
       if (std::find(known.begin(), known.end(), word) == known.end()) known.push_back(std::move(word));
     }
-    std::string mend = did_you_mean(name.text, known);
-    if (mend.empty()) mend = fmt::format("; for a sign write gloss = \"{}\"", printable(name.text));
-    in_.fail(name.begin, fmt::format("no condition is called '{}'{}", printable(name.text), mend));
+    std::string hint = did_you_mean(name.text, known);
+    if (hint.empty()) hint = fmt::format("; for a sign write gloss = \"{}\"", printable(name.text));
+    in_.fail(name.begin, fmt::format("no condition is called '{}'{}", printable(name.text), hint));
   }
 
   [[noreturn]] void refuse_variable(const QueryToken& token) {
@@ -450,7 +450,7 @@ class Parser {
                                         printable(token.text), printable(token.text)));
     }
     if (++variables_ > kMostVariables) {
-      in_.fail(token.begin, fmt::format("more than {} conditions on variables; ask in parts", kMostVariables));
+      in_.fail(token.begin, fmt::format("more than {} conditions on variables; split the query", kMostVariables));
     }
     variable_ = token.begin;
     return {token.text.substr(1)};
@@ -462,10 +462,10 @@ class Parser {
     const bool closing = in_.next_is(")");
     if (in_.next_is(",")) {
       in_.fail(next.begin,
-               "',' has no meaning here; a text with such characters stands in double quotes, and "
+               "',' has no meaning here; put a text with such characters in double quotes, and "
                "conditions are joined with & or |");
     }
-    in_.fail(next.begin, closing ? std::string("')' without '('; take it away")
+    in_.fail(next.begin, closing ? std::string("')' without '('; remove it")
                                  : fmt::format("expected & | -> or the end of the query, found {}; join conditions "
                                                "with &, | or ->",
                                                QueryLexer::shown(next)));
@@ -477,8 +477,8 @@ class Parser {
   int sequences_ = 0;
   int examples_ = 0;
   int variables_ = 0;
-  std::size_t variable_ = 0;  ///< where the last one stands
-  std::size_t example_ = 0;   ///< where the last like(…) begins
+  std::size_t variable_ = 0;  ///< offset of the last variable
+  std::size_t example_ = 0;   ///< offset of the last like(…)
   bool marked_ = false;
 };
 

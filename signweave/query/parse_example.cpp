@@ -21,8 +21,8 @@ TimeSpan parse_span(QueryLexer& in) {
   std::string text;
   while (in.peek().kind == QueryToken::Kind::word) text += in.take().text;
   const std::size_t dots = text.find("..");
-  constexpr std::string_view kWrite = "write when it begins and ends in milliseconds, such as 1200..3400";
-  if (dots == std::string::npos) in.fail(begin, fmt::format("'{}' is no span of time; {}", printable(text), kWrite));
+  constexpr std::string_view kWrite = "write its begin and end in milliseconds, such as 1200..3400";
+  if (dots == std::string::npos) in.fail(begin, fmt::format("'{}' is not a time span; {}", printable(text), kWrite));
   const auto bound = [&](std::string_view part) {
     std::string_view digits = part;
     std::int64_t times = 1;
@@ -37,7 +37,7 @@ TimeSpan parse_span(QueryLexer& in) {
     const double count = value * static_cast<double>(times);
     if (digits.empty() || end.ec != std::errc() || end.ptr != digits.data() + digits.size() || std::abs(count) > 1e12 ||
         std::abs(count - std::round(count)) > 1e-6) {
-      in.fail(begin, fmt::format("'{}' is no time in whole milliseconds; {}", printable(part), kWrite));
+      in.fail(begin, fmt::format("'{}' is not a time in whole milliseconds; {}", printable(part), kWrite));
     }
     return Milliseconds(static_cast<std::int64_t>(std::round(count)));
   };
@@ -52,14 +52,14 @@ Condition parse_example(QueryLexer& in, const QueryToken& name) {
   Condition result;
   result.field = Field::like;
   Example example;
-  in.expect("(", R"(name a piece of a recording: like("meteo"@1200..3400))");
+  in.expect("(", R"(name a span of a recording: like("meteo"@1200..3400))");
   const QueryToken recording = in.take();
   if (recording.kind != QueryToken::Kind::text && recording.kind != QueryToken::Kind::word) {
     in.fail(recording.begin, fmt::format("expected a recording's name, found {}; write like(\"meteo\"@1200..3400)",
                                          QueryLexer::shown(recording)));
   }
   example.recording = recording.text;
-  in.expect("@", R"(tell from when to when: like("meteo"@1200..3400))");
+  in.expect("@", R"(give the begin and end: like("meteo"@1200..3400))");
   example.span = parse_span(in);
   while (in.accept(",")) {
     const std::size_t begin = in.peek().begin;

@@ -5,7 +5,7 @@
 
 namespace signweave {
 
-/// The rest of like("meteo"@1200..3400, right_hand), of which `name`, the word "like", is taken. Throws QueryError.
+/// Parses the rest of like("meteo"@1200..3400, right_hand) after `name`, the word "like". Throws QueryError.
 Condition parse_example(QueryLexer& in, const QueryToken& name);
 
 }  // namespace signweave

@@ -27,7 +27,7 @@ constexpr std::array kPeakComponents = {Component::least};
 constexpr std::array kCompares = {Compare::equal,      Compare::not_equal, Compare::less,
                                   Compare::less_equal, Compare::greater,   Compare::greater_equal};
 
-/// What may be asked of as a whole in max(…), min(…) and any(…): one number at each moment.
+/// The quantities allowed in max(…), min(…) and any(…): those with one value at each moment.
 constexpr std::array kMomentary = {Quantity::speed, Quantity::acceleration, Quantity::distance, Quantity::track,
                                    Quantity::gaze};
 
@@ -55,14 +55,14 @@ class MovementParser {
   }
 
  private:
-  /// Whether a quantity that has a number at each moment stands in the parenthesis that follows.
+  /// Whether the parenthesis that follows contains a quantity with a value at each moment.
   bool measured_inside() {
     QueryLexer ahead = in_;
     if (!ahead.accept("(") || ahead.peek().kind != Kind::word) return false;
     return is_quantity(ahead.take().text) && ahead.next_is("(");
   }
 
-  /// max(speed(right_hand)): the same as a quantity with a component.
+  /// max(speed(right_hand)): equivalent to a quantity with a component.
   Condition over_moments(const QueryToken& name) {
     Condition result;
     result.field = Field::movement;
@@ -71,14 +71,16 @@ class MovementParser {
     in_.expect("(", "");
     const QueryToken inner = in_.take();
     if (!value_of(kMomentary, inner.text)) {
-      in_.fail(inner.begin,
-               fmt::format("'{}' is no number of a moment; {}({}) takes one of {}, or a point: {}(right_hand).height",
-                           inner.text, name.text, "…", fmt::join(words_of(kMomentary), ", "), name.text));
+      in_.fail(
+          inner.begin,
+          fmt::format("'{}' has no value at a single moment; {}({}) takes one of {}, or a point: {}(right_hand).height",
+                      inner.text, name.text, "…", fmt::join(words_of(kMomentary), ", "), name.text));
     }
     term.quantity = value_of(kMomentary, inner.text).value();
     take_term(inner, term);
     if (term.component != Component::none) {
-      in_.fail(inner.begin, fmt::format("'{}' is one moment's already; leave '{}' out", to_string(term), name.text));
+      in_.fail(inner.begin,
+               fmt::format("'{}' is already the value at one moment; leave '{}' out", to_string(term), name.text));
     }
     in_.expect(")", fmt::format("close the parenthesis of '{}'", name.text));
     const bool is_distance = term.quantity == Quantity::distance;
@@ -88,12 +90,12 @@ class MovementParser {
     };
     ask(over == Quantity::max);
     result.compare = compare(result);
-    // At some moment above: the most is above. At some moment below: the least is.
+    // Above at some moment: the maximum is above. Below at some moment: the minimum is below.
     if (over == Quantity::any) ask(result.compare == Compare::greater || result.compare == Compare::greater_equal);
     return result;
   }
 
-  /// What stands in parentheses behind a quantity's name, and the component behind it.
+  /// Takes the parenthesis after a quantity's name, and the component after it.
   void take_term(const QueryToken& name, MovementTerm& term) {
     if (is_series(term.quantity)) return parse_series(in_, name, term);
     in_.expect("(", fmt::format("name a point: {}(right_hand)", name.text));
@@ -103,7 +105,7 @@ class MovementParser {
       in_.expect(",", "name two points: distance(right_hand, head)");
       const std::size_t begin = in_.peek().begin;
       term.other = parse_point(in_);
-      if (*term.other == term.point) in_.fail(begin, "a point is in no distance from itself; name two points");
+      if (*term.other == term.point) in_.fail(begin, "a point has no distance to itself; name two different points");
     }
     if (term.quantity == Quantity::enters && !inside && in_.next_is(",")) return;
     in_.expect(")", term.quantity == Quantity::distance ? "close the parenthesis after the two points"
@@ -112,7 +114,7 @@ class MovementParser {
     term.component = component(term, name, inside ? inside : take_component(in_));
   }
 
-  /// A point, and the component behind it within the parenthesis: max(right_hand.height).
+  /// A point, and the component after it within the parenthesis: max(right_hand.height).
   Point point_and_component(std::optional<QueryToken>& component) {
     const QueryToken& next = in_.peek();
     const std::size_t dot = next.kind == Kind::word ? next.text.find('.', 1) : std::string::npos;
@@ -129,10 +131,10 @@ class MovementParser {
 
   void require_hand(const Point& point, std::size_t begin, std::string_view what) {
     if (point.kind != Point::Kind::part) return;
-    in_.fail(begin, fmt::format("'{}' is known of hands only; use hand, right_hand or left_hand", what));
+    in_.fail(begin, fmt::format("'{}' is known for hands only; use hand, right_hand or left_hand", what));
   }
 
-  /// `token`: that with the dot before it; none: none was written.
+  /// `token`: the component with its leading dot; nullopt: none was given.
   Component component(const MovementTerm& term, const QueryToken& name, const std::optional<QueryToken>& token) {
     if (!token) {
       if (!needs_component(term.quantity)) return Component::none;
@@ -151,8 +153,8 @@ class MovementParser {
     }
     if (!is_known && needs_component(term.quantity) && of_hand) {
       require_hand(term.point, token->begin, word);
-      in_.fail(token->begin, fmt::format("'{}' is nothing that '{}' tells; ask for any({}).{}", word, name.text,
-                                         to_string(term.point), word));
+      in_.fail(token->begin,
+               fmt::format("'{}' has no value in '{}'; use any({}).{}", word, name.text, to_string(term.point), word));
     }
     if (!is_known) refuse_component(in_, *token, known);
     if (of_hand) return *of_hand;
@@ -183,7 +185,7 @@ class MovementParser {
     }
   }
 
-  /// Takes comparison and value, which tell together what is allowed.
+  /// Takes comparison and value, which together determine what is allowed.
   Compare compare(Condition& condition) {
     const AllowedValue allowed = allowed_for(condition.movement);
     const std::string what = to_string(condition.movement);
@@ -200,15 +202,15 @@ class MovementParser {
     const bool equality = *found == Compare::equal || *found == Compare::not_equal;
     if (std::holds_alternative<Amount>(condition.value)) {
       if (!equality) return *found;
-      in_.fail(at.begin, fmt::format("what is measured is never exactly a number; use < <= > >= with {}",
+      in_.fail(at.begin, fmt::format("a measured value is never exactly a number; use < <= > >= with {}",
                                      to_string(std::get<Amount>(condition.value))));
     }
     const auto padded = [](std::string_view text) { return fmt::format(" {} ", text); };
     if (padded(allowed.compares).find(padded(word_of(*found))) != std::string::npos) return *found;
     if (condition.movement.quantity == Quantity::enters && !equality)
-      in_.fail(at.begin, fmt::format("a zone is entered or not; use {} = {}", what, parsed.written));
+      in_.fail(at.begin, fmt::format("a zone is either entered or not; use {} = {}", what, parsed.written));
     if (*found == Compare::not_equal)
-      in_.fail(at.begin, fmt::format("'{}' is one of several at once; use !({} = …)", what, what));
+      in_.fail(at.begin, fmt::format("'{}' can be one of several at once; use !({} = …)", what, what));
     in_.fail(begin, fmt::format("'{}' has no order; compare it with {}", parsed.written, allowed.compares));
   }
 

@@ -5,12 +5,12 @@
 
 namespace signweave {
 
-/// True where a word begins a condition on movement, given that "(" follows.
+/// Whether a word begins a condition on movement, given that "(" follows.
 bool is_quantity(std::string_view word) noexcept;
-/// The words that begin one, and "like".
+/// The words that begin a condition on movement, and "like".
 std::vector<std::string> movement_words();
 
-/// The rest of a condition on movement, of which `name` is taken and "(" is next. Throws QueryError.
+/// Parses the rest of a condition on movement after `name`; the next token is "(". Throws QueryError.
 Condition parse_movement(QueryLexer& in, const QueryToken& name);
 
 }  // namespace signweave

@@ -8,7 +8,7 @@ namespace {
 
 using testing::HasSubstr;
 
-TEST(ParseMovement, WhatIsWellFormedReadsBackAsItself) {
+TEST(ParseMovement, AWellFormedQueryParsesBackToItself) {
   struct Row {
     const char* text;
     const char* normal;
@@ -85,7 +85,7 @@ TEST(ParseMovement, WhatIsWellFormedReadsBackAsItself) {
   }
 }
 
-TEST(ParseMovement, EveryPointReadsBackFromItsName) {
+TEST(ParseMovement, EveryPointParsesFromItsName) {
   for (const std::string& word : point_words()) {
     const std::optional<Point> point = point_named(word);
     ASSERT_TRUE(point) << word;
@@ -114,61 +114,62 @@ TEST(ParseMovement, AFaultIsOneLineWithItsColumn) {
       {"speed(right_hand)", 18,
        "expected a comparison after 'speed(right_hand)', found the end of the query; use one of "
        "< <= > >="},
-      {"speed(right_hand) = 1 m/s", 19, "what is measured is never exactly a number; use < <= > >= with 1 m/s"},
+      {"speed(right_hand) = 1 m/s", 19, "a measured value is never exactly a number; use < <= > >= with 1 m/s"},
       {"speed(right_hand) =~ /1/", 19, "expected a comparison"},
       {"speed(right_hand) > ", 21,
        "expected a value after '>', found the end of the query; write a number such as 1.5"},
       {"speed(right_hand) > 1.5", 21, "the number 1.5 lacks a unit; write a number such as 1.5 m/s"},
       {"speed(right_hand) > 1.5 & hand = left", 21, "lacks a unit"},
-      {"speed(right_hand) > 1.5 m", 25, "'m' is not what this is measured in; write a number such as 1.5 m/s"},
+      {"speed(right_hand) > 1.5 m", 25, "'m' is not a unit of this quantity; write a number such as 1.5 m/s"},
       {"speed(right_hand) > 1.5 km/h", 25, "no unit is called 'km/h'"},
       {"speed(right_hand) > 1.5 m/sec", 25, "no unit is called 'm/sec'; did you mean m/s"},
-      {"speed(right_hand) > 1.5.1 m/s", 21, "is no number"},
+      {"speed(right_hand) > 1.5.1 m/s", 21, "is not a number"},
       {"speed(right_hand) > 1e3 m/s", 21, "no unit is called 'e3'"},
-      {"speed(right_hand) > 10000000 m/s", 21, "above a million"},
-      {"speed(right_hand) > fast", 21, "'fast' is no value of 'speed(right_hand)'; write a number such as 1.5 m/s"},
-      {"path(hand) > 1 m/s", 16, "'m/s' is not what this is measured in"},
+      {"speed(right_hand) > 10000000 m/s", 21, "above one million"},
+      {"speed(right_hand) > fast", 21, "'fast' is not a value of 'speed(right_hand)'; write a number such as 1.5 m/s"},
+      {"path(hand) > 1 m/s", 16, "'m/s' is not a unit of this quantity"},
       {"distance(right_hand) < 1 cm", 20, "expected ',', found ')'; name two points"},
-      {"distance(head, head) < 1 cm", 16, "in no distance from itself"},
+      {"distance(head, head) < 1 cm", 16, "has no distance to itself"},
       {"distance(head, hand).least < 1 cm", 21, "no component is called 'least'; use one of begin, end, most"},
       {"end(right_hand) > shoulder", 17,
        "expected a component after 'end(…)', found '>'; write end(right_hand).height"},
       {"end(right_hand).heigth > shoulder", 16, "no component is called 'heigth'; did you mean height?"},
       {"end(right_hand).height > sholder", 26,
-       "'sholder' is no value of 'end(right_hand).height'; did you mean shoulder?"},
+       "'sholder' is not a value of 'end(right_hand).height'; did you mean shoulder?"},
       {"end(right_hand).x > left", 21, "'left' has no order; compare it with = !="},
-      {"end(head).openness > 0.5", 10, "'openness' is known of hands only; use hand, right_hand or left_hand"},
+      {"end(head).openness > 0.5", 10, "'openness' is known for hands only; use hand, right_hand or left_hand"},
       {"max(right_hand) > shoulder", 17,
        "expected a component after 'max(…)', found '>'; write max(right_hand).height"},
-      {"max(right_hand).palm = up", 16, "'palm' is nothing that 'max' tells; ask for any(right_hand).palm"},
-      {"max(right_hand.palm) = up", 15, "'palm' is nothing that 'max' tells; ask for any(right_hand).palm"},
-      {"max(head).openness > 0.5", 10, "'openness' is known of hands only"},
+      {"max(right_hand).palm = up", 16, "'palm' has no value in 'max'; use any(right_hand).palm"},
+      {"max(right_hand.palm) = up", 15, "'palm' has no value in 'max'; use any(right_hand).palm"},
+      {"max(head).openness > 0.5", 10, "'openness' is known for hands only"},
       {"max(right_hand.heigth) > chin", 15, "no component is called 'heigth'; did you mean height?"},
       {"max(right_hand.height).x > chin", 23, "expected a comparison"},
       {"max(right_hnd).height > chin", 5, "no point is called 'right_hnd'; did you mean right_hand"},
       {"max(right_hnd.height) > chin", 5, "no point is called 'right_hnd'; did you mean right_hand"},
       {"max(mean_speed(hand)) > 1 m/s", 5,
-       "'mean_speed' is no number of a moment; max(…) takes one of speed, acceleration, distance, track, gaze, or a "
+       "'mean_speed' has no value at a single moment; max(…) takes one of speed, acceleration, distance, track, gaze, "
+       "or a "
        "point: max(right_hand).height"},
-      {"min(speed(hand).least) > 1 m/s", 5, "'speed(hand).least' is one moment's already; leave 'min' out"},
+      {"min(speed(hand).least) > 1 m/s", 5, "'speed(hand).least' is already the value at one moment; leave 'min' out"},
       {"any(speed(hand) > 1 m/s", 17, "close the parenthesis of 'any'"},
-      {"any(right_hand).height = 0.3", 24, "what is measured is never exactly a number"},
+      {"any(right_hand).height = 0.3", 24, "a measured value is never exactly a number"},
       {"any(right_hand).x > left", 21, "'left' has no order; compare it with = !="},
       {"enters(right_hand)", 19, "expected a component after 'enters(…)'"},
       {"enters(right_hand, sholder)", 20, "expected a zone, found 'sholder'; did you mean shoulder?; use one of"},
       {"enters(right_hand, )", 20, "expected a zone, found ')'"},
       {"enters(right_hand, chin", 24, "close the parenthesis after the zone"},
-      {"enters(right_hand).height > chin", 27, "a zone is entered or not; use enters(right_hand).height = chin"},
+      {"enters(right_hand).height > chin", 27, "a zone is either entered or not; use enters(right_hand).height = chin"},
       {"enters(right_hand).height != chin", 27,
-       "'enters(right_hand).height' is one of several at once; use !(enters(right_hand).height = …)"},
+       "'enters(right_hand).height' can be one of several at once; use !(enters(right_hand).height = …)"},
       {"enters(right_hand).height = 0.3", 29, "'0.3' is a number; use one of below_waist"},
-      {"enters(right_hand).palm = up", 19, "'palm' is nothing that 'enters' tells; ask for any(right_hand).palm"},
-      {"contact(head) = torso", 1, "'contact' is known of hands only"},
-      {"contact(hand) != torso", 15, "'contact(hand)' is one of several at once; use !(contact(hand) = …)"},
+      {"enters(right_hand).palm = up", 19, "'palm' has no value in 'enters'; use any(right_hand).palm"},
+      {"contact(head) = torso", 1, "'contact' is known for hands only"},
+      {"contact(hand) != torso", 15, "'contact(hand)' can be one of several at once; use !(contact(hand) = …)"},
       {"contact(hand) = 3", 17, "'3' is a number; use one of hand, head, torso"},
       {"end(hand).palm = dwon", 18, "did you mean down?"},
       {"end(hand).palm > up", 18, "has no order"},
-      {"end(hand).openness > 0.5 cm", 26, "'cm' is not what this is measured in; write a number such as 0.5"},
+      {"end(hand).openness > 0.5 cm", 26, "'cm' is not a unit of this quantity; write a number such as 0.5"},
       {"track", 6, "expected '(', found the end of the query; name a scalar track: track(\"jawOpen\")"},
       {"track() > 0.4", 7, "expected a track's name, found ')'; name a scalar track: track(\"jawOpen\")"},
       {"track(\" \") > 0.4", 7, "expected a track's name, found \" \""},
@@ -177,34 +178,34 @@ TEST(ParseMovement, AFaultIsOneLineWithItsColumn) {
       {"track(jawOpen).peak > 0.4", 15, "no component is called 'peak'; use one of least, begin, end"},
       {"track(jawOpen).beginn > 0.4", 15, "did you mean begin?; use one of least, begin, end"},
       {"mean_track(jawOpen).end > 0.4", 20, "'mean_track' has no components; leave '.end' out"},
-      {"track(jawOpen) = 0.4", 16, "what is measured is never exactly a number; use < <= > >= with 0.4"},
-      {"track(jawOpen) > open", 18, "'open' is no value of 'track(\"jawOpen\")'; write a number such as 0.5"},
-      {"track(jawOpen) > 0.4 deg", 22, "'deg' is not what this is measured in; write a number such as 0.5"},
+      {"track(jawOpen) = 0.4", 16, "a measured value is never exactly a number; use < <= > >= with 0.4"},
+      {"track(jawOpen) > open", 18, "'open' is not a value of 'track(\"jawOpen\")'; write a number such as 0.5"},
+      {"track(jawOpen) > 0.4 deg", 22, "'deg' is not a unit of this quantity; write a number such as 0.5"},
       {"trak(jawOpen) > 0.4", 1, "no condition is called 'trak'; did you mean track?"},
       {"gaze(left) > 15 deg", 6, "the gaze has no angle 'left'; write gaze(yaw) or gaze(pitch)"},
       {"gaze(paw) > 15 deg", 6, "did you mean yaw?; write gaze(yaw) or gaze(pitch)"},
       {"mean_gaze > 15 deg", 11, "expected '(', found '>'; write mean_gaze(yaw) or mean_gaze(pitch)"},
       {"gaze(yaw) > 15", 13, "the number 15 lacks a unit; write a number such as 15 deg"},
-      {"gaze(yaw) > 15 m/s", 16, "'m/s' is not what this is measured in; write a number such as 15 deg"},
+      {"gaze(yaw) > 15 m/s", 16, "'m/s' is not a unit of this quantity; write a number such as 15 deg"},
       {"gaze(yaw) > 15 degrees", 16, "no unit is called 'degrees'"},
       {"gaze(yaw).height > 15 deg", 10, "no component is called 'height'"},
       {"(gloss = A -> gloss = B) & track(jawOpen) > 0.4", 26, "which only & duration, begin and end"},
-      {"like", 5, "expected '(', found the end of the query; name a piece of a recording"},
-      {"like(\"meteo\")", 13, "expected '@', found ')'; tell from when to when"},
-      {"like(\"meteo\"@)", 14, "'' is no span of time"},
-      {"like(\"meteo\"@1200)", 14, "'1200' is no span of time; write when it begins and ends in milliseconds"},
-      {"like(\"meteo\"@12x..15)", 14, "'12x' is no time in whole milliseconds"},
-      {"like(\"meteo\"@1.5..15)", 14, "'1.5' is no time in whole milliseconds"},
+      {"like", 5, "expected '(', found the end of the query; name a span of a recording"},
+      {"like(\"meteo\")", 13, "expected '@', found ')'; give the begin and end"},
+      {"like(\"meteo\"@)", 14, "'' is not a time span"},
+      {"like(\"meteo\"@1200)", 14, "'1200' is not a time span; write its begin and end in milliseconds"},
+      {"like(\"meteo\"@12x..15)", 14, "'12x' is not a time in whole milliseconds"},
+      {"like(\"meteo\"@1.5..15)", 14, "'1.5' is not a time in whole milliseconds"},
       {"like(\"meteo\"@20..10)", 14, "swap the two times"},
       {"like(\"meteo\"@1..2, right_hnd)", 20, "no point is called 'right_hnd'"},
-      {"like(\"meteo\"@1..2, hand)", 20, "tell which hand is compared"},
+      {"like(\"meteo\"@1..2, hand)", 20, "name the hand to compare"},
       {"like(\"meteo\"@1..2, head, head)", 26, "'head' is named twice"},
-      {"like(\"meteo\"@1..2 right_hand)", 14, "is no time in whole milliseconds"},
+      {"like(\"meteo\"@1..2 right_hand)", 14, "is not a time in whole milliseconds"},
       {"like(\"meteo\"@1..2) & like(\"meteo\"@3..4)", 22, "a second like(…)"},
-      {"gloss = A | like(\"meteo\"@1..2)", 13, "like(…) is no condition, it orders the answers"},
-      {"!like(\"meteo\"@1..2)", 2, "like(…) is no condition"},
-      {"parent(like(\"meteo\"@1..2))", 8, "like(…) is no condition"},
-      {"gloss = A overlaps like(\"meteo\"@1..2)", 20, "like(…) orders what is before a relation"},
+      {"gloss = A | like(\"meteo\"@1..2)", 13, "like(…) is not a condition but orders the answers"},
+      {"!like(\"meteo\"@1..2)", 2, "like(…) is not a condition"},
+      {"parent(like(\"meteo\"@1..2))", 8, "like(…) is not a condition"},
+      {"gloss = A overlaps like(\"meteo\"@1..2)", 20, "like(…) must be in the part before a relation"},
       {"duration(hand) > 1s", 9, "expected a comparison after 'duration', found '('"},
   };
   for (const Row& row : rows) {
@@ -220,7 +221,7 @@ TEST(ParseMovement, AFaultIsOneLineWithItsColumn) {
   }
 }
 
-TEST(ParseMovement, AnExampleMayStandAmongTheOutermostConditions) {
+TEST(ParseMovement, AnExampleIsAllowedAmongTheOutermostConditions) {
   EXPECT_NO_THROW(parse("(gloss = A & like(\"m\"@1..2)) & hand = left"));
   EXPECT_NO_THROW(parse("(gloss = A | gloss = B) & like(\"m\"@1..2) overlaps tier(\"X\") = b -> gloss = C"));
   EXPECT_THROW(parse("(gloss = A | like(\"m\"@1..2)) & hand = left"), QueryError);

@@ -18,7 +18,7 @@ Point point_of(QueryLexer& in, const QueryToken& token, bool sided) {
   const bool named = token.kind == QueryToken::Kind::word || token.kind == QueryToken::Kind::text;
   const std::optional<Point> found = named ? point_named(fold_case(token.text)) : std::nullopt;
   if (found && sided && found->kind == Point::Kind::hand) {
-    in.fail(token.begin, "tell which hand is compared: right_hand or left_hand, or name none for both");
+    in.fail(token.begin, "name the hand to compare: right_hand or left_hand, or no hand for both");
   }
   if (found) return *found;
   constexpr std::string_view kExamples = "hand, right_hand, left_elbow, head, right_index_tip";

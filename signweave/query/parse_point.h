@@ -3,13 +3,13 @@
 #include "signweave/query/lexer.h"
 #include "signweave/query/phase_query.h"
 
-/// Inside this module only: a point of the signer in the text of a query.
+/// Internal to this module: a point of the signer in the text of a query.
 namespace signweave {
 
-/// Takes a point. `sided`: "hand" is none, since one of the two must be named. Throws QueryError.
+/// Takes a point. If `sided`, "hand" is not accepted: one of the two hands must be named. Throws QueryError.
 Point parse_point(QueryLexer& in, bool sided = false);
 
-/// That of a token which is taken already.
+/// The point of a token that is already taken.
 Point point_of(QueryLexer& in, const QueryToken& token, bool sided = false);
 
 }  // namespace signweave

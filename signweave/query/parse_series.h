@@ -7,14 +7,14 @@
 #include "signweave/query/lexer.h"
 #include "signweave/query/movement_term.h"
 
-/// Inside this module only: reading what a condition on movement is about where that is no point.
+/// Internal to this module: parses the subject of a condition on movement if it is not a point.
 namespace signweave {
 
-/// The rest of track(NAME) or gaze(ANGLE), of which `name` is taken, with its component. The quantity of `term` must be
-/// known. Throws QueryError.
+/// Parses the rest of track(NAME) or gaze(ANGLE) after `name`, with its component. The quantity of `term` must be set.
+/// Throws QueryError.
 void parse_series(QueryLexer& in, const QueryToken& name, MovementTerm& term);
 
-/// Takes ".height" where that is next, as one token.
+/// Takes ".height" as one token if it is next.
 std::optional<QueryToken> take_component(QueryLexer& in);
 [[noreturn]] void refuse_component(const QueryLexer& in, const QueryToken& token,
                                    const std::vector<std::string>& known);

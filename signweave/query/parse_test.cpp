@@ -13,7 +13,7 @@ namespace {
 
 using testing::HasSubstr;
 
-TEST(Parse, WhatIsWellFormedReadsBackAsItself) {
+TEST(Parse, AWellFormedQueryParsesBackToItself) {
   struct Row {
     const char* text;
     const char* normal;
@@ -103,18 +103,18 @@ TEST(Parse, AFaultIsOneLineWithItsColumn) {
       {"gloss =~ /A", 10, "close it with /"},
       {"gloss =~ /A(/", 10, "regular expression: missing"},
       {"gloss =~ /A/gi", 10, "flags 'gi'"},
-      {"gloss = /A/", 9, "stands after =~"},
+      {"gloss = /A/", 9, "a regular expression after =~"},
       {"gloss < A", 7, "expected a comparison after 'gloss', found '<'; use one of = != =~"},
       {"duration =~ /3/", 10, "use one of = != < <= > >="},
       {"hand =~ /l.*/", 6, "use one of = !="},
       {"hand = middle", 8, "no hand is called 'middle'; use one of both, right, left"},
       {"phase = strok", 9, "no phase is called 'strok'; use one of preparation, stroke, retraction, hold, other"},
       {"duration > 300", 12, "lacks a unit; write 300ms or 300s"},
-      {"duration > soon", 12, "'soon' is no time"},
+      {"duration > soon", 12, "'soon' is not a time"},
       {"duration > 0.5ms", 12, "whole milliseconds"},
-      {"duration > 1.s", 12, "is no time"},
+      {"duration > 1.s", 12, "is not a time"},
       {"duration > 1000000000000000s", 12, "15 digits"},
-      {"duration > --1s", 12, "is no time"},
+      {"duration > --1s", 12, "is not a time"},
       {"gloss = A phase = stroke", 11, "expected & | -> or the end of the query, found 'phase'"},
       {"gloss = A)", 10, "')' without '('"},
       {"(gloss = A", 11, "expected ')', found the end of the query; close the parenthesis of column 1"},
@@ -123,7 +123,7 @@ TEST(Parse, AFaultIsOneLineWithItsColumn) {
       {"gloss = A ->[500ms] gloss = B", 14, "two bounds"},
       {"gloss = A ->[..] gloss = B", 14, "without bounds"},
       {"gloss = A ->[2s..1s] gloss = B", 14, "swap"},
-      {"gloss = A ->[-1s..1s] gloss = B", 14, "never negative"},
+      {"gloss = A ->[-1s..1s] gloss = B", 14, "cannot be negative"},
       {"gloss = A ->[..500] gloss = B", 16, "lacks a unit"},
       {"gloss = A ->[..500ms gloss = B", 13, "'[' without ']'"},
       {"gloss = A -> phase = stroke", 11, "a sign and a phase"},
@@ -177,7 +177,7 @@ TEST(Parse, SequencesAndRelationsInParenthesesAreSegments) {
   }
 }
 
-TEST(Parse, WhatIsNoConditionIsRefusedAsOne) {
+TEST(Parse, ANonConditionIsRejected) {
   struct Row {
     const char* text;
     const char* what;
@@ -186,13 +186,14 @@ TEST(Parse, WhatIsNoConditionIsRefusedAsOne) {
       {"(gloss = A -> gloss = B) | gloss = C", "only & duration, begin and end"},
       {"(gloss = A -> gloss = B) & gloss = C", "only & duration, begin and end"},
       {"(gloss = A -> gloss = B) & begin(hand).x > 1", "movement of a whole sequence"},
-      {"gloss = C & (gloss = A -> gloss = B)", "one segment and no condition"},
-      {"!(gloss = A overlaps gloss = B)", "one segment and no condition"},
-      {"child(gloss = A -> gloss = B)", "has no parent and no children"},
-      {"overlaps(gloss = A -> @ gloss = B)", "an @ inside of a condition"},
+      {"gloss = C & (gloss = A -> gloss = B)", "is a segment, not a condition"},
+      {"!(gloss = A overlaps gloss = B)", "is a segment, not a condition"},
+      {"child(gloss = A -> gloss = B)", "has no parent or children"},
+      {"overlaps(gloss = A -> @ gloss = B)", "an @ inside a condition"},
       {"@ (gloss = A -> @ gloss = B)", "a second @"},
-      {"overlaps(gloss = A -> gloss = $X) & gloss = $X", "a variable is joined"},
-      {"gloss = A overlaps (gloss = B & like(\"r\"@1..2) -> gloss = C)", "like(…) orders what is before a relation"},
+      {"overlaps(gloss = A -> gloss = $X) & gloss = $X", "join a variable"},
+      {"gloss = A overlaps (gloss = B & like(\"r\"@1..2) -> gloss = C)",
+       "like(…) must be in the part before a relation"},
       {"(gloss = A -> gloss = B", "close the parenthesis of column 1"},
       {"gloss = A -> (phase = hold -> phase = stroke)", "a sequence of a sign and a phase"},
   };
@@ -203,7 +204,7 @@ TEST(Parse, WhatIsNoConditionIsRefusedAsOne) {
   EXPECT_THAT(fault_in("gloss = \xC3\x89 &\n (gloss = B").what(), HasSubstr("the parenthesis of line 2, column 2"));
 }
 
-TEST(Parse, TheCaretStandsUnderTheFault) {
+TEST(Parse, TheCaretIsUnderTheFault) {
   EXPECT_EQ(fault_in("gloss = \xC3\x89T\xC3\x89 &\n phase = strok").caret, " phase = strok\n         ^");
   EXPECT_EQ(fault_in("gloss = \"\xC3\x89T\xC3\x89\" hand").caret,
             "gloss = \"\xC3\x89T\xC3\x89\" hand\n              ^");
@@ -212,7 +213,7 @@ TEST(Parse, TheCaretStandsUnderTheFault) {
   EXPECT_THAT(caret, HasSubstr("hand = left\n"));
 }
 
-TEST(Parse, DeepNestingIsAFaultAndNoOverflow) {
+TEST(Parse, DeepNestingIsAnErrorNotAnOverflow) {
   EXPECT_NO_THROW(parse(std::string(150, '(') + "gloss = A" + std::string(150, ')')));
   for (const std::string& text : {std::string(60'000, '('), std::string(60'000, '!'), [] {
                                     std::string links;
@@ -239,7 +240,7 @@ TEST(Parse, SizesAreBounded) {
   EXPECT_THAT(fault_in(tiers).what(), HasSubstr("57 tiers"));
 }
 
-RC_GTEST_PROP(Parse, EveryTreeReadsBackFromItsText, (std::uint32_t seed)) {
+RC_GTEST_PROP(Parse, EveryTreeParsesBackFromItsText, (std::uint32_t seed)) {
   std::mt19937 random(seed);
   const PhaseQuery query = random_query(random, true);
   const std::string text = to_string(query);
@@ -247,7 +248,7 @@ RC_GTEST_PROP(Parse, EveryTreeReadsBackFromItsText, (std::uint32_t seed)) {
   RC_ASSERT(parse(text) == query);
 }
 
-RC_GTEST_PROP(Parse, AnyTextIsReadOrRefusedWithAColumnInsideIt, (std::uint32_t seed)) {
+RC_GTEST_PROP(Parse, AnyTextIsParsedOrRejectedWithAColumnInsideIt, (std::uint32_t seed)) {
   std::mt19937 random(seed);
   std::string text = to_string(random_query(random, true));
   constexpr std::string_view kSpice = "()[]!&|@,\"/\\=~<>-.$ a1\n\xC3\xA9";

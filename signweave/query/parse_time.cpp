@@ -22,7 +22,7 @@ Milliseconds time_in(const QueryLexer& in, std::string_view word, std::size_t of
   const bool point = whole.size() < digits.size();
   if (whole.empty() || (std::string(whole) + part).find_first_not_of("0123456789") != std::string::npos ||
       point == part.empty()) {
-    in.fail(offset, fmt::format("'{}' is no time; write one such as 300ms or 1.5s", printable(word)));
+    in.fail(offset, fmt::format("'{}' is not a time; write one such as 300ms or 1.5s", printable(word)));
   }
   if (unit == 0) in.fail(offset, fmt::format("the time {} lacks a unit; write {}ms or {}s", word, word, word));
   while (part.ends_with('0')) part.pop_back();
@@ -51,14 +51,14 @@ Interval parse_gap(QueryLexer& in) {
   const std::string_view inside = in.bracketed();
   const std::size_t dots = inside.find("..");
   if (dots == std::string_view::npos) {
-    in.fail(in.offset_of(inside), "a gap has two bounds, one of them may be left out; write ->[..500ms]");
+    in.fail(in.offset_of(inside), "a gap has two bounds, one of which may be omitted; write ->[..500ms]");
   }
   const auto bound = [&](std::string_view part) -> std::optional<Milliseconds> {
     const std::string_view word = trimmed(part);
     if (word.empty()) return std::nullopt;
     const Milliseconds result = time_in(in, word, in.offset_of(word));
     if (result < 0ms) {
-      in.fail(in.offset_of(word), "a gap is never negative; use overlaps for segments that overlap");
+      in.fail(in.offset_of(word), "a gap cannot be negative; use overlaps for segments that overlap");
     }
     return result;
   };

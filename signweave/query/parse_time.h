@@ -3,13 +3,13 @@
 #include "signweave/query/lexer.h"
 #include "signweave/query/phase_query.h"
 
-/// Inside this module only: the times of a query.
+/// Internal to this module: the times of a query.
 namespace signweave {
 
-/// "300ms", "1.5s", or number and unit as two words; `token` has been taken. Throws QueryError.
+/// "300ms", "1.5s", or number and unit as two words; `token` is already taken. Throws QueryError.
 Milliseconds parse_time(QueryLexer& in, const QueryToken& token);
 
-/// "[100ms..500ms]", of which a bound may be left out. The next token is "[". Throws QueryError.
+/// "[100ms..500ms]", of which one bound may be omitted. The next token is "[". Throws QueryError.
 Interval parse_gap(QueryLexer& in);
 
 }  // namespace signweave

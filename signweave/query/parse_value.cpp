@@ -26,7 +26,7 @@ constexpr std::array kContacts = {Contact::hands, Contact::head, Contact::torso}
 struct UnitName {
   std::string_view word;
   Unit unit;
-  double per;  ///< so many of it make one of `unit`
+  double per;  ///< number of these per `unit`
 };
 constexpr std::array kUnits = {
     UnitName{"m", Unit::metres, 1},
@@ -46,7 +46,7 @@ constexpr std::array kUnits = {
     UnitName{"m/s\xC2\xB2", Unit::metres_per_second_squared, 1},
     UnitName{"cm/s\xC2\xB2", Unit::metres_per_second_squared, 100},
 };
-constexpr std::size_t kUnitsShown = 11;  ///< the rest are other spellings
+constexpr std::size_t kUnitsShown = 11;  ///< the rest are alternative spellings
 
 AllowedValue allowed_for(ValueKind kind) {
   const std::vector<Unit> lengths = {Unit::shoulder_widths, Unit::metres, Unit::none};
@@ -110,7 +110,7 @@ Amount parse_amount(QueryLexer& in, const QueryToken& token, const AllowedValue&
   double value = 0;
   const auto end = std::from_chars(text.data(), text.data() + digits, value, std::chars_format::fixed);
   if (end.ec != std::errc() || end.ptr != text.data() + digits || digits > kMostDigits) {
-    in.fail(token.begin, fmt::format("'{}' is no number; {}", printable(token.text), what_to_write(allowed)));
+    in.fail(token.begin, fmt::format("'{}' is not a number; {}", printable(token.text), what_to_write(allowed)));
   }
   std::string word(text.substr(digits));
   std::size_t at = token.begin;
@@ -132,11 +132,11 @@ Amount parse_amount(QueryLexer& in, const QueryToken& token, const AllowedValue&
     in.fail(word.empty() ? token.begin : at,
             word.empty()
                 ? fmt::format("the number {} lacks a unit; {}", printable(token.text), what_to_write(allowed))
-                : fmt::format("'{}' is not what this is measured in; {}", printable(word), what_to_write(allowed)));
+                : fmt::format("'{}' is not a unit of this quantity; {}", printable(word), what_to_write(allowed)));
   }
   const double result = word.empty() ? value : value / unit->per;
   constexpr double kMost = 1e6;
-  if (std::abs(result) > kMost) in.fail(token.begin, "a number above a million; write a smaller one");
+  if (std::abs(result) > kMost) in.fail(token.begin, "a number above one million; write a smaller one");
   const bool bare_length = meant == Unit::none && allowed.units.size() > 1;
   return {result, bare_length ? Unit::shoulder_widths : meant};
 }
@@ -189,7 +189,7 @@ ParsedValue parse_value(QueryLexer& in, const MovementTerm& term, const AllowedV
       break;
   }
   if (found) return {*std::move(found), token.text};
-  in.fail(token.begin, fmt::format("{} is no value of '{}'{}; {}", QueryLexer::shown(token), to_string(term),
+  in.fail(token.begin, fmt::format("{} is not a value of '{}'{}; {}", QueryLexer::shown(token), to_string(term),
                                    did_you_mean(token.text, allowed.names), what_to_write(allowed)));
 }
 

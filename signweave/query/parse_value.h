@@ -8,14 +8,14 @@
 #include "signweave/query/movement_term.h"
 #include "signweave/query/phase_query.h"
 
-/// Inside this module only: what a movement is compared with, a number with its unit or a name such as "chin".
+/// Internal to this module: the value a movement is compared with, a number with its unit or a name such as "chin".
 namespace signweave {
 
-/// What a value is in words: what may stand after the comparison.
+/// The values allowed after a comparison, as words.
 struct AllowedValue {
   std::vector<Unit> units;
-  std::string_view number;         ///< an example of one; empty: none
-  std::vector<std::string> names;  ///< of places and the like
+  std::string_view number;         ///< an example of a number; empty: no number is allowed
+  std::vector<std::string> names;  ///< of zones, directions and contacts
   std::string_view compares;
 };
 
@@ -26,10 +26,10 @@ struct ParsedValue {
   std::string written;  ///< the word or number, without its unit
 };
 
-/// Takes the value after a comparison. Throws QueryError, with what might have been written, where it is not allowed.
+/// Takes the value after a comparison. Throws QueryError that lists the allowed values if it is not one of them.
 ParsedValue parse_value(QueryLexer& in, const MovementTerm& term, const AllowedValue& allowed, Compare compare);
 
-/// Takes the rest of enters(right_hand, shoulder), from the comma on.
+/// Takes the rest of enters(right_hand, shoulder) from the comma onwards.
 void parse_zone(QueryLexer& in, Condition& condition);
 
 }  // namespace signweave

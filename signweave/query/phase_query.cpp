@@ -15,7 +15,8 @@ std::string slashed(const Regex& regex) {
   for (std::size_t i = 0; i < regex.pattern.size(); ++i) {
     if (regex.pattern[i] == '/') result += '\\';
     result += regex.pattern[i];
-    // The byte after a backslash belongs to it: a slash that is escaped already (in a tree made by hand) stays so.
+    // The byte after a backslash belongs to it: a slash that is already escaped (in a tree built by hand) stays
+    // escaped.
     if (regex.pattern[i] == '\\' && i + 1 < regex.pattern.size()) result += regex.pattern[++i];
   }
   return result + (regex.ignore_case ? "/i" : "/");
@@ -40,7 +41,7 @@ std::string to_string(const Term& term) {
   return (term.marked ? "@ " : "") + to_string(term.expression);
 }
 
-/// Whether the query is in parentheses as it stands: one group over all of it, which stands in no relation.
+/// Whether the query is already in parentheses: one group over all of it, which is in no relation.
 bool is_closed(const PhaseQuery& query) noexcept {
   const std::vector<Group>& groups = query.elements.back().groups;
   return !groups.empty() && groups.back().places == query.elements.size() && groups.back().relations.empty();
@@ -113,7 +114,7 @@ std::string to_string(const Interval& gap) {
 
 std::string to_string(const PhaseQuery& query) {
   const std::size_t count = query.elements.size();
-  std::vector<std::string> opened(count);  // what stands before a place
+  std::vector<std::string> opened(count);  // text before each place
   for (std::size_t i = 0; i < count; ++i) {
     for (const Group& group : query.elements[i].groups) {
       std::string& before = opened[i + 1 - group.places];

@@ -13,13 +13,13 @@
 
 namespace signweave {
 
-// The syntax tree of a query on signs, phases and annotations (the paper's PhaseQuery, section 4.2). Plain data; what
-// it means is in docs/query.md, what reads it in parse.h, what answers it in find.h. A new kind of condition is one
+// The syntax tree of a query on signs, phases and annotations (the paper's PhaseQuery, section 4.2). Plain data:
+// docs/query.md defines its meaning, parse.h parses it, find.h evaluates it. A new kind of condition needs one
 // enumerator here, one row in parse.cpp and one case in matcher.cpp.
 
-/// What a condition looks at.
+/// The subject of a condition.
 enum class Field {
-  gloss,      ///< label of a sign; of a phase: of its sign
+  gloss,      ///< label of a sign; for a phase, that of its sign
   phase,      ///< PhaseKind of a phase
   hand,       ///< of a sign or phase
   recording,  ///< name of the recording
@@ -30,7 +30,7 @@ enum class Field {
   movement,  ///< `Condition::movement`
   unit,      ///< the segment is a unit: no comparison, no value
   signer,    ///< name of the signer
-  like,      ///< no condition, but the order of the answers: by their distance from an example
+  like,      ///< not a condition, but the order of the answers: by distance to an example
 };
 
 enum class Compare { equal, not_equal, matches, less, less_equal, greater, greater_equal };
@@ -42,20 +42,20 @@ struct Regex {
   friend bool operator==(const Regex&, const Regex&) = default;
 };
 
-/// $NAME: the same label wherever it stands in a query.
+/// $NAME: the same label at every use in a query.
 struct QueryVariable {
   std::string name;
   friend bool operator==(const QueryVariable&, const QueryVariable&) = default;
 };
 
-/// FIELD COMPARE VALUE. The parser sees to it that they fit: texts and regular expressions for gloss, recording, tier;
-/// a PhaseKind (or a regular expression over their names) for phase; a Hand for hand; milliseconds for the times; what
-/// `value_kind` says for movement. `like` has an Example and no comparison; it stands only among the outermost operands
-/// of `&` of an element, once in a query.
+/// FIELD COMPARE VALUE. The parser ensures that they fit: texts and regular expressions for gloss, recording, tier; a
+/// PhaseKind (or a regular expression over their names) for phase; a Hand for hand; milliseconds for the times; the
+/// kind given by `value_kind` for movement. `like` has an Example and no comparison; it is allowed only among the
+/// outermost operands of `&` of an element, once in a query.
 struct Condition {
   Field field = Field::gloss;
-  std::string tier;       ///< of Field::tier only
-  MovementTerm movement;  ///< of Field::movement only
+  std::string tier;       ///< for Field::tier only
+  MovementTerm movement;  ///< for Field::movement only
   Compare compare = Compare::equal;
   std::variant<std::string, Regex, PhaseKind, Hand, Milliseconds, Amount, Height, Across, Reach, Facing, Contact,
                Example, QueryVariable>
@@ -65,7 +65,7 @@ struct Condition {
 
 /// From one segment to others: along the parents of annotations, or by time within one recording.
 enum class Link {
-  parent,      ///< the parent annotation; of a phase: its sign
+  parent,      ///< the parent annotation; for a phase: its sign
   child,       ///< an annotation whose parent the segment is
   ancestor,    ///< parent, its parent, …
   descendant,  ///< child, its child, …
@@ -78,14 +78,14 @@ enum class Link {
 
 struct PhaseQuery;
 
-/// A condition on one segment, composed.
+/// A composed condition on one segment.
 struct Expression {
   enum class Kind {
     condition,  ///< `condition`
     all,        ///< two or more operands, `&`
     any,        ///< two or more operands, `|`
     negation,   ///< one operand, `!`
-    link,       ///< one operand: `link`(operand); or none, and a sequence, where the link is a relation in time
+    link,       ///< `link`(operand): one operand, or none and a sequence if the link is a relation in time
   };
   Kind kind = Kind::condition;
   Condition condition;
@@ -106,29 +106,29 @@ struct Term {
 struct Relation {
   Link link = Link::overlaps;
   Term term;                         ///< the partner
-  std::vector<PhaseQuery> sequence;  ///< at most one: the partner is that, as a whole, and `term` means nothing
+  std::vector<PhaseQuery> sequence;  ///< at most one: it is the partner, as a whole, and `term` is unused
   friend bool operator==(const Relation&, const Relation&) = default;
 };
 
 /// "(A -> B)": places of a sequence taken as one segment, from the begin of the first to the end of the last.
 struct Group {
-  std::size_t places = 1;                  ///< so many, up to the element that it is of
+  std::size_t places = 1;                  ///< number of places, ending at the element it belongs to
   bool marked = false;                     ///< `@`: this segment is the answer
   std::vector<Condition> conditions = {};  ///< on duration, begin and end of the whole
   std::vector<Relation> relations = {};    ///< of the whole
   friend bool operator==(const Group&, const Group&) = default;
 };
 
-/// One place of a sequence: a segment and what it must stand in relation to.
+/// One place of a sequence: a segment and its required relations.
 struct Element {
   Term term;
   std::vector<Relation> relations;
-  std::vector<Group> groups = {};  ///< those that end here, the inner ones first
+  std::vector<Group> groups = {};  ///< groups that end here, inner ones first
   friend bool operator==(const Element&, const Element&) = default;
 };
 
-/// What lies between two elements. Without bounds: they are neighbours on their tier. With a bound: the time from the
-/// end of the first to the begin of the second, on the same tier, lies in [least, most].
+/// The gap between two elements. Without bounds: they are neighbours on their tier. With a bound: the time from the end
+/// of the first to the begin of the second, on the same tier, is in [least, most].
 struct Interval {
   std::optional<Milliseconds> least;
   std::optional<Milliseconds> most;
@@ -137,21 +137,22 @@ struct Interval {
   friend bool operator==(const Interval&, const Interval&) = default;
 };
 
-/// A whole query: one element, or a sequence of them. At most one term or group is marked, those of partners among
-/// them. Sequences within a sequence are not there: (A -> B) -> C is A -> B -> C.
+/// A whole query: one element, or a sequence of them. At most one term or group is marked, including those of partners.
+/// Sequences are not nested: (A -> B) -> C is A -> B -> C.
 struct PhaseQuery {
   std::vector<Element> elements;  ///< at least one
-  std::vector<Interval> gaps;     ///< one fewer
+  std::vector<Interval> gaps;     ///< one fewer than elements
   friend bool operator==(const PhaseQuery&, const PhaseQuery&) = default;
 };
 
-/// A segment that takes part in an answer, as Segment::parts (find.h) lists them: every place, each followed by its
-/// partners in relations, then those of the groups that end there; in place of a partner that is a sequence its parts.
+/// The number of segments in an answer, as Segment::parts (find.h) lists them: every place, each followed by its
+/// partners in relations, then those of the groups that end there; a partner that is a sequence is replaced by its
+/// parts.
 std::size_t part_count(const PhaseQuery& query) noexcept;
 std::size_t part_count(const Relation& relation) noexcept;
-/// Where the parts of a place begin.
+/// Index of the first part of a place.
 std::size_t part_of_place(const PhaseQuery& query, std::size_t place) noexcept;
-/// The parts of what is marked: several where a group is; none where nothing is.
+/// The marked parts: several for a group; none if nothing is marked.
 std::vector<std::size_t> marked_parts(const PhaseQuery& query);
 /// Whether the query or something in it is marked.
 bool is_marked(const PhaseQuery& query) noexcept;
@@ -183,7 +184,7 @@ std::string to_string(const Condition& condition);
 /// "->", "->[..500ms]", "->[100ms..500ms]".
 std::string to_string(const Interval& gap);
 
-/// The words of the language. Each is the one place where its spelling stands.
+/// The words of the language. These functions are the only place that defines their spelling.
 std::string_view word_of(Field field) noexcept;
 std::string_view word_of(Compare compare) noexcept;
 std::string_view word_of(Link link) noexcept;

@@ -10,33 +10,33 @@
 namespace signweave {
 namespace {
 
-/// A sign has about so many phases.
+/// Estimated number of phases per sign.
 constexpr std::size_t kChildrenPerRow = 3;
-/// Looking at so many numbers of a column costs about what one row from an index does.
+/// Testing this many values of a column costs about as much as one row from an index.
 constexpr std::size_t kRowsPerScan = 16;
 
-std::vector<Access> accesses_of(Matcher& matcher);
+std::vector<AccessPath> access_paths_of(Matcher& matcher);
 
-/// Chooses indexes for the answers of one scope.
-class AccessFinder {
+/// Chooses the access path for the answers of one scope.
+class AccessPathFinder {
  public:
-  AccessFinder(Matcher& matcher, Scopes scope) : matcher_(matcher), table_(matcher.table()), scope_(scope) {}
+  AccessPathFinder(Matcher& matcher, Scopes scope) : matcher_(matcher), table_(matcher.table()), scope_(scope) {}
 
-  Access find() {
-    std::optional<Access> found = of(matcher_.root());
+  AccessPath find() {
+    std::optional<AccessPath> found = of(matcher_.root());
     return found ? std::move(*found) : all_in_scope();
   }
 
  private:
-  /// None where no index helps.
-  std::optional<Access> of(BoundExpression& expression) {
+  /// nullopt if no index helps.
+  std::optional<AccessPath> of(BoundExpression& expression) {
     switch (expression.kind) {
       case Expression::Kind::condition:
-        // A condition of a more special scope gives no answer of this one.
-        if ((expression.condition.scope & scope_) != scope_) return Access();
+        // A condition of a more specific scope has no answer in this one.
+        if ((expression.condition.scope & scope_) != scope_) return AccessPath();
         return of(expression.condition);
       case Expression::Kind::negation:
-        if ((expression.top & scope_) != scope_) return Access();
+        if ((expression.top & scope_) != scope_) return AccessPath();
         return std::nullopt;
       case Expression::Kind::all:
         return of_all(expression);
@@ -48,19 +48,19 @@ class AccessFinder {
     return std::nullopt;
   }
 
-  std::optional<Access> of_all(BoundExpression& expression) {
-    std::optional<Access> best;
+  std::optional<AccessPath> of_all(BoundExpression& expression) {
+    std::optional<AccessPath> best;
     for (BoundExpression& operand : expression.operands) {
-      std::optional<Access> other = of(operand);
+      std::optional<AccessPath> other = of(operand);
       if (other && (!best || other->rows < best->rows)) best = std::move(other);
     }
     return best;
   }
 
-  std::optional<Access> of_any(BoundExpression& expression) {
-    Access sum;
+  std::optional<AccessPath> of_any(BoundExpression& expression) {
+    AccessPath sum;
     for (BoundExpression& operand : expression.operands) {
-      std::optional<Access> other = of(operand);
+      std::optional<AccessPath> other = of(operand);
       if (!other) return std::nullopt;
       sum.lists.insert(sum.lists.end(), other->lists.begin(), other->lists.end());
       sum.parents.insert(sum.parents.end(), other->parents.begin(), other->parents.end());
@@ -72,11 +72,11 @@ class AccessFinder {
     return sum;
   }
 
-  /// parent(…): the children of what fulfils the condition inside, where an index leads to that.
-  std::optional<Access> of_link(BoundExpression& expression) {
+  /// parent(…): the children of the rows that meet the condition inside, if an index leads to those.
+  std::optional<AccessPath> of_link(BoundExpression& expression) {
     if (expression.link != Link::parent) return std::nullopt;
-    Access result;
-    for (const Access& inner : accesses_of(*expression.linked)) {
+    AccessPath result;
+    for (const AccessPath& inner : access_paths_of(*expression.linked)) {
       if (!inner.ranges.empty() || !inner.parents.empty() || !inner.scans.empty()) return std::nullopt;
       result.parents.insert(result.parents.end(), inner.lists.begin(), inner.lists.end());
       result.rows += inner.rows * kChildrenPerRow;
@@ -85,10 +85,10 @@ class AccessFinder {
     return result;
   }
 
-  std::optional<Access> of(BoundCondition& condition) {
+  std::optional<AccessPath> of(BoundCondition& condition) {
     if (condition.field != Field::phase && condition.compare == Compare::not_equal) return std::nullopt;
     if (condition.variable) return std::nullopt;
-    Access access;
+    AccessPath access;
     switch (condition.field) {
       case Field::gloss:
         add_gloss(condition, access);
@@ -100,7 +100,7 @@ class AccessFinder {
         access.through.push_back(fmt::format("the phase index ({})", to_string(*condition.source)));
         break;
       case Field::tier:
-        // Only where the answers lie on that tier; elsewhere the condition is about what overlaps them.
+        // Only if the answers are on that tier; otherwise the condition is about annotations that overlap them.
         if (condition.scope != scope_ || condition.regex) return std::nullopt;
         for (const RowKind kind : {RowKind::annotation, RowKind::sign, RowKind::phase}) {
           add(table_.with_label(kind, condition.label), access.lists, access);
@@ -128,13 +128,13 @@ class AccessFinder {
         if (!condition.movement->scannable()) return std::nullopt;
         access.scans.push_back(condition.movement.get());
         access.rows = table_.size() / kRowsPerScan + 1;
-        access.through.push_back(fmt::format("the column of numbers ({})", to_string(*condition.source)));
+        access.through.push_back(fmt::format("the movement column ({})", to_string(*condition.source)));
         break;
     }
     return access;
   }
 
-  void add_gloss(BoundCondition& condition, Access& access) {
+  void add_gloss(BoundCondition& condition, AccessPath& access) {
     std::vector<std::span<const RowId>>& target = scope_ == Scopes::phases() ? access.parents : access.lists;
     if (condition.regex) {
       for (const std::uint32_t label : table_.labels_of(RowKind::sign)) {
@@ -149,20 +149,20 @@ class AccessFinder {
                                          to_string(*condition.source)));
   }
 
-  static void add(std::span<const RowId> rows, std::vector<std::span<const RowId>>& lists, Access& access) {
+  static void add(std::span<const RowId> rows, std::vector<std::span<const RowId>>& lists, AccessPath& access) {
     if (rows.empty()) return;
     lists.push_back(rows);
     access.rows += rows.size();
   }
 
-  static void add(SegmentTable::RowRange range, Access& access) {
+  static void add(SegmentTable::RowRange range, AccessPath& access) {
     if (range.size() == 0) return;
     access.ranges.push_back(range);
     access.rows += range.size();
   }
 
-  Access all_in_scope() {
-    Access access;
+  AccessPath all_in_scope() {
+    AccessPath access;
     if (scope_ == Scopes::phases()) {
       for (unsigned kind = 0; kind < 5; ++kind) {
         add(table_.phases(static_cast<PhaseKind>(kind)), access.lists, access);
@@ -192,10 +192,10 @@ class AccessFinder {
   Scopes scope_;
 };
 
-std::vector<Access> accesses_of(Matcher& matcher) {
-  std::vector<Access> result;
+std::vector<AccessPath> access_paths_of(Matcher& matcher) {
+  std::vector<AccessPath> result;
   const auto add = [&](Scopes scope) {
-    if (matcher.scopes().has(scope)) result.push_back(AccessFinder(matcher, scope).find());
+    if (matcher.scopes().has(scope)) result.push_back(AccessPathFinder(matcher, scope).find());
   };
   add(Scopes::units());
   add(Scopes::phases());
@@ -206,7 +206,7 @@ std::vector<Access> accesses_of(Matcher& matcher) {
   return result;
 }
 
-/// An index that leads to all rows for which the condition holds, and to no others.
+/// Whether an index leads to exactly the rows for which the condition holds.
 bool is_exact(const BoundExpression& expression) noexcept {
   if (expression.kind != Expression::Kind::condition || expression.condition.variable) return false;
   const Field field = expression.condition.field;
@@ -214,16 +214,16 @@ bool is_exact(const BoundExpression& expression) noexcept {
   return field == Field::phase || field == Field::unit;
 }
 
-std::size_t rows_of(std::span<const Access> accesses) noexcept {
+std::size_t rows_of(std::span<const AccessPath> access_paths) noexcept {
   std::size_t result = 0;
-  for (const Access& access : accesses) result += access.rows;
+  for (const AccessPath& access : access_paths) result += access.rows;
   return result;
 }
 
 }  // namespace
 
-BoundQuery bind(const PhaseQuery& query, const Segments::Member& member, const Movement* movement, StopCheck& watch,
-                bool all) {
+BoundQuery bind(const PhaseQuery& query, const Segments::Member& member, const Movement* movement,
+                StopCheck& stop_check, bool all) {
   BoundQuery result;
   result.gaps = query.gaps;
   std::size_t part = 0;
@@ -233,17 +233,18 @@ BoundQuery bind(const PhaseQuery& query, const Segments::Member& member, const M
       bound.push_back({.link = relation.link, .places = places, .marked = is_marked(relation), .part = part});
       part += part_count(relation);
       if (relation.sequence.empty()) {
-        bound.back().matcher.emplace(relation.term.expression, member, movement, watch);
+        bound.back().matcher.emplace(relation.term.expression, member, movement, stop_check);
         bound.back().tiers = bound.back().matcher->only_tiers();
       } else {
         const PhaseQuery& partner = relation.sequence.front();
-        bound.back().sequence = std::make_shared<Search>(partner, member, movement, watch, all);
+        bound.back().sequence = std::make_shared<Search>(partner, member, movement, stop_check, all);
       }
     }
   };
   for (const Element& element : query.elements) {
     result.places.push_back(part);
-    result.elements.push_back({.matcher = Matcher(element.term.expression, member, movement, watch), .part = part++});
+    result.elements.push_back(
+        {.matcher = Matcher(element.term.expression, member, movement, stop_check), .part = part++});
     add(element.relations, 1);
     for (const Group& group : element.groups) {
       for (const Condition& condition : group.conditions) {
@@ -259,25 +260,25 @@ BoundQuery bind(const PhaseQuery& query, const Segments::Member& member, const M
 }
 
 Plan plan(BoundQuery& query) {
-  // Looking around a partner for the element costs about as much as testing so many rows.
+  // Finding the element around a partner costs about as much as testing this many rows.
   constexpr std::size_t kAround = 8;
   std::optional<Plan> best;
   const auto offer = [&](Plan offered) {
     if (!best || offered.rows < best->rows) best = std::move(offered);
   };
-  const auto all_of_tiers = [](Matcher& matcher, std::span<const Access> accesses) {
-    return matcher.only_tiers() && std::ranges::all_of(accesses, &Access::of_tier);
+  const auto all_of_tiers = [](Matcher& matcher, std::span<const AccessPath> access_paths) {
+    return matcher.only_tiers() && std::ranges::all_of(access_paths, &AccessPath::of_tier);
   };
   for (std::size_t e = 0; e < query.elements.size(); ++e) {
     BoundQuery::BoundElement& element = query.elements[e];
-    std::vector<Access> accesses = accesses_of(element.matcher);
-    const std::size_t rows = rows_of(accesses);
-    const bool on_tier = all_of_tiers(element.matcher, accesses);
-    offer({e, std::nullopt, std::move(accesses), rows, is_exact(element.matcher.root()), on_tier});
+    std::vector<AccessPath> access_paths = access_paths_of(element.matcher);
+    const std::size_t rows = rows_of(access_paths);
+    const bool on_tier = all_of_tiers(element.matcher, access_paths);
+    offer({e, std::nullopt, std::move(access_paths), rows, is_exact(element.matcher.root()), on_tier});
     for (std::size_t r = 0; r < element.relations.size(); ++r) {
       BoundQuery::BoundRelation& relation = element.relations[r];
       if (relation.sequence || relation.places > 1) continue;
-      std::vector<Access> around = accesses_of(*relation.matcher);
+      std::vector<AccessPath> around = access_paths_of(*relation.matcher);
       const std::size_t partners = rows_of(around);
       offer({e, r, std::move(around), partners * kAround, false, false});
     }
@@ -285,9 +286,9 @@ Plan plan(BoundQuery& query) {
   return std::move(*best);
 }
 
-std::optional<std::span<const RowId>> one_list(std::span<const Access> accesses) noexcept {
+std::optional<std::span<const RowId>> one_list(std::span<const AccessPath> access_paths) noexcept {
   std::optional<std::span<const RowId>> found = std::span<const RowId>();
-  for (const Access& access : accesses) {
+  for (const AccessPath& access : access_paths) {
     if (!access.parents.empty() || !access.ranges.empty() || !access.scans.empty()) return std::nullopt;
     for (const std::span<const RowId> list : access.lists) {
       if (!found->empty()) return std::nullopt;
@@ -297,18 +298,18 @@ std::optional<std::span<const RowId>> one_list(std::span<const Access> accesses)
   return found;
 }
 
-void candidates(std::span<const Access> accesses, const SegmentTable& table, const MovingTable& moving,
-                StopCheck& watch, std::vector<RowId>& result) {
+void candidates(std::span<const AccessPath> access_paths, const SegmentTable& table, const MovingTable& moving,
+                StopCheck& stop_check, std::vector<RowId>& result) {
   result.clear();
   const auto add = [&](RowId row) {
-    watch.tick();
+    stop_check.tick();
     result.push_back(row);
   };
-  for (const Access& access : accesses) {
+  for (const AccessPath& access : access_paths) {
     for (const std::span<const RowId> list : access.lists) std::ranges::for_each(list, add);
     for (const std::span<const RowId> list : access.parents) {
       for (const RowId parent : list) {
-        watch.tick();
+        stop_check.tick();
         const std::span<const RowId> children = table.children(parent);
         result.insert(result.end(), children.begin(), children.end());
       }
@@ -319,33 +320,33 @@ void candidates(std::span<const Access> accesses, const SegmentTable& table, con
     for (MovementCheck* scan : access.scans) {
       if (moving.movement == nullptr) continue;
       for (std::uint32_t recording = 0; recording < table.recording_count(); ++recording) {
-        watch.check();
+        stop_check.check();
         const std::uint32_t number = (*moving.numbers)[recording];
         const SegmentTable::RowRange rows = table.recording_rows(recording);
         if (number == SegmentTable::kNone || scan->scan(number, rows.begin, result)) continue;
-        for (RowId row = rows.begin; row < rows.end; ++row) add(row);  // nothing is stored of it
+        for (RowId row = rows.begin; row < rows.end; ++row) add(row);  // nothing is stored for it
       }
     }
   }
-  sort_rows(result, table.size(), watch);
+  sort_rows(result, table.size(), stop_check);
 }
 
-void sort_rows(std::vector<RowId>& rows, RowId table_size, StopCheck& watch) {
+void sort_rows(std::vector<RowId>& rows, RowId table_size, StopCheck& stop_check) {
   bool ascending = true;
   for (std::size_t i = 1; i < rows.size() && ascending; ++i) {
-    watch.tick();
+    stop_check.tick();
     ascending = rows[i - 1] < rows[i];
   }
   if (ascending) return;
-  if (rows.size() > table_size / 64) {  // then ticking them off on a list of all is faster
+  if (rows.size() > table_size / 64) {  // a bitmap of all rows is faster then
     std::vector<std::uint64_t> there(table_size / 64 + 1);
     for (const RowId row : rows) {
-      watch.tick();
+      stop_check.tick();
       there[row / 64] |= std::uint64_t{1} << row % 64;
     }
     rows.clear();
     for (std::size_t word = 0; word < there.size(); ++word) {
-      watch.tick();
+      stop_check.tick();
       for (std::uint64_t left = there[word]; left != 0; left &= left - 1) {
         rows.push_back(static_cast<RowId>(64 * word) + static_cast<RowId>(std::countr_zero(left)));
       }
@@ -353,7 +354,7 @@ void sort_rows(std::vector<RowId>& rows, RowId table_size, StopCheck& watch) {
     return;
   }
   std::ranges::sort(rows, [&](RowId a, RowId b) {
-    watch.tick();
+    stop_check.tick();
     return a < b;
   });
   rows.erase(std::unique(rows.begin(), rows.end()), rows.end());

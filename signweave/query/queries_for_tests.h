@@ -12,11 +12,11 @@
 
 namespace signweave {
 
-/// Random queries over the few labels and short times of the random corpora in find_property_test.cpp, so that they
-/// have answers now and then.
+/// Random queries over the few labels and short times of the random corpora in find_property_test.cpp, so that some of
+/// them have answers.
 class RandomQueries {
  public:
-  /// With `movement`, conditions on movement are among the others, and sometimes an example.
+  /// With `movement`, some conditions are on movement, and some queries have an example.
   explicit RandomQueries(std::mt19937& random, bool movement = false) : random_(random), movement_(movement) {}
 
   PhaseQuery query() {
@@ -128,7 +128,7 @@ class RandomQueries {
     return result;
   }
 
-  /// Two places; at times with a condition on the whole, or something beside one of them.
+  /// Two places, sometimes with a condition on the whole, or a relation of one of them.
   PhaseQuery pair() {
     const unsigned kind = below(4);
     PhaseQuery result;
@@ -196,7 +196,7 @@ class RandomQueries {
     return kLabels[below(one_in(3) ? 7 : 3)];
   }
 
-  /// Sequences of signs (0, 1), of phases (2), of the annotations of a sign tier (3): the parser refuses the mixed.
+  /// Sequences of signs (0, 1), of phases (2), of the annotations of a sign tier (3): the parser rejects mixed ones.
   Expression of_kind(unsigned kind) {
     const auto first = [&] { return kind == 2 ? phase() : kind == 3 ? of_tier("Gloss") : gloss(); };
     if (!one_in(3)) return first();
@@ -268,7 +268,7 @@ class RandomQueries {
     return result;
   }
 
-  /// Joins an example to the conditions of a place.
+  /// Adds an example to the conditions of a place.
   void rank(Expression& expression) {
     Expression like;
     like.condition.field = Field::like;

@@ -30,7 +30,7 @@ std::uint32_t recording_called(const std::string& name, const Segments& segments
               fmt::format("like(…): no recording '{}' in this database{}", printable(name), did_you_mean(name, known)));
 }
 
-/// The points that are kept in a trace.
+/// The trace point of a point, if traces store it.
 std::optional<TracePoint> traced(const Point& point) noexcept {
   if (point.kind == Point::Kind::palm) return palm_on(point.side);
   if (point == Point::of(finger_part(Side::left, Finger::index, FingerPoint::tip))) return TracePoint::left_index;
@@ -58,12 +58,12 @@ RankedExample::RankedExample(const Example& example, const Segments& segments, c
   if (movement_ != nullptr) load(recording);
   if (movement_ == nullptr || trace_->samples() == 0) {
     const std::string why = trace_ ? trace_->why_not : "there is no motion";
-    throw Error(ErrorCode::not_found, fmt::format("like(…): nothing is known of the hands in '{}': {}", name, why));
+    throw Error(ErrorCode::not_found, fmt::format("like(…): the hands are not known in '{}': {}", name, why));
   }
   const FrameRange frames = measured_frames(example.span, clock_, trace_->frames);
   if (frames.empty()) {
     const TimeSpan whole = span_of({0, trace_->frames}, clock_);
-    throw Error(ErrorCode::bad_input, fmt::format("like(…): {}..{} lies outside of the motion of '{}', which is from "
+    throw Error(ErrorCode::bad_input, fmt::format("like(…): {}..{} lies outside the motion of '{}', which is from "
                                                   "{} to {} ms",
                                                   example.span.begin.count(), example.span.end.count(), name,
                                                   whole.begin.count(), whole.end.count()));
@@ -88,9 +88,8 @@ RankedExample::RankedExample(const Example& example, const Segments& segments, c
   if (traced_.size() < points_.size()) traced_.clear();
   if (points_.empty()) {
     throw Error(ErrorCode::not_found,
-                fmt::format("like(…): neither hand is known in '{}' from {} to {} ms; name another "
-                            "piece",
-                            name, example.span.begin.count(), example.span.end.count()));
+                fmt::format("like(…): neither hand is known in '{}' from {} to {} ms; name another span", name,
+                            example.span.begin.count(), example.span.end.count()));
   }
 }
 
@@ -118,7 +117,7 @@ void RankedExample::offer(std::uint32_t id, std::uint32_t recording, TimeSpan sp
   if (frames.empty()) return;
   const bool at_hand =
       !traced_.empty() && std::ranges::none_of(traced_, [&](TracePoint point) { return (*trace_)[point].empty(); });
-  if (at_hand && search.too_far(TraceStretch(*trace_, frames), traced_)) return;
+  if (at_hand && search.too_far(TraceSpan(*trace_, frames), traced_)) return;
   candidate_.resize(points_.size());
   for (std::size_t i = 0; i < points_.size(); ++i) {
     if (!resample_point(points_[i], recording, frames, candidate_[i])) return;

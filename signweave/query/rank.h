@@ -12,24 +12,24 @@
 
 namespace signweave {
 
-/// Where no limit is given, so many of the nearest are an answer to like(…).
+/// The number of results of like(…) without a limit.
 inline constexpr std::size_t kNearest = 20;
 
-/// The place of a query whose segments like(…) orders; none where it has none.
+/// The place of a query whose segments like(…) orders; nullopt if the query has no like(…).
 std::optional<std::size_t> ranked_place(const PhaseQuery& query) noexcept;
-/// The example there. There must be one.
+/// The example at that place, which must have one.
 const Example& example_at(const PhaseQuery& query, std::size_t place) noexcept;
 
-/// An example made ready for one database. Borrows the movement. For one thread.
+/// An example bound to one database. Borrows the movement. For one thread.
 class RankedExample {
  public:
-  /// Throws Error{not_found} where the recording, its motion or a point that is named is not there, Error{bad_input}
-  /// where the example lies outside of the motion.
+  /// Throws Error{not_found} if the recording, its motion or a named point does not exist, Error{bad_input} if the
+  /// example lies outside the motion.
   RankedExample(const Example& example, const Segments& segments, const Movement* movement);
 
   const Shape& shape() const noexcept { return shape_; }
-  /// Offers a stretch of a recording (numbered as in Segments) to a search for this example, unless it is not known, or
-  /// too far at a glance.
+  /// Offers a span of a recording (numbered as in Segments) to a search for this example, unless its movement is not
+  /// known or a quick test shows that it is too far.
   void offer(std::uint32_t id, std::uint32_t recording, TimeSpan span, NearestSearch& search);
 
  private:
@@ -38,10 +38,10 @@ class RankedExample {
 
   const Movement* movement_;
   std::vector<Point> points_;
-  std::vector<TracePoint> traced_;  ///< the same where all of them are kept in traces; else empty
+  std::vector<TracePoint> traced_;  ///< the same points if traces store all of them; else empty
   Shape shape_;
   Shape candidate_;
-  std::optional<std::uint32_t> recording_;  ///< whose trace is at hand
+  std::optional<std::uint32_t> recording_;  ///< the one whose trace is loaded
   std::shared_ptr<const HandTrace> trace_;
   FrameClock clock_;
 };

@@ -12,7 +12,7 @@
 namespace signweave {
 namespace {
 
-/// The nearest to an example of many pieces of one moving person, and the same by comparing it with each.
+/// The spans nearest to an example among many spans of one moving person, and the same by comparing it with each.
 class Rank : public testing::Test {
  protected:
   Rank() {
@@ -66,7 +66,7 @@ class Rank : public testing::Test {
   std::vector<TimeSpan> pieces_;
 };
 
-TEST_F(Rank, PointsThatAreKeptInTracesAndPointsThatAreNotAreComparedTogether) {
+TEST_F(Rank, TracedAndUntracedPointsAreComparedTogether) {
   const Point hand = Point::palm(Side::right);
   const Point elbow = Point::of(Part::right_forearm);
   const std::string name(corpus_.recording_name(0));

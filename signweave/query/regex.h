@@ -8,8 +8,8 @@
 
 namespace signweave {
 
-/// Compiled for labels in match form: the pattern is brought to NFC as they are. Check `ok()`. Linear in the label's
-/// length whatever the pattern; its memory is bounded by RE2 (8 MiB).
+/// Compiles a pattern for labels in match form: the pattern is normalised to NFC as they are. The caller must check
+/// `ok()`. Matching is linear in the label's length for every pattern; memory is bounded by RE2 (8 MiB).
 std::unique_ptr<RE2> compile(const Regex& regex);
 
 }  // namespace signweave

@@ -11,14 +11,14 @@ namespace {
 constexpr std::size_t kMostAnswers = 5'000'000;
 constexpr std::size_t kMostParts = 2 * kMostAnswers;  // of all answers together
 constexpr std::size_t kMany = 65'536;
-// Of the sequences that are partners, of which a query may have sixteen, at a time: what lies in one recording.
+// Limit of the matches in one recording for a partner that is a sequence; a query may have sixteen such partners.
 constexpr std::size_t kMostPartners = 400'000;
 constexpr std::size_t kMostPartsOfPartners = 2 * kMostPartners;
-/// A unit of more signs is named after the first of them.
+/// A unit with more signs is named after the first of them.
 constexpr int kMostNames = 64;
 
-/// Many become as many as there may be at once: address space costs nothing, copying millions as they grow takes longer
-/// than a search may take to stop.
+/// A large vector reserves its maximum size at once: address space costs nothing, while copying millions of values as
+/// it grows takes longer than a search may take to stop.
 template <typename Value>
 void make_room(std::vector<Value>& values, std::size_t added, std::size_t most) {
   if (values.capacity() < values.size() + added && values.size() >= kMany) values.reserve(most);
@@ -59,34 +59,34 @@ Search::Search(const PhaseQuery& query, const Segments::Member& member, const Mo
                const FindLimits& limits)
     : Search(query, member, movement, nullptr, limits, false) {}
 
-Search::Search(const PhaseQuery& query, const Segments::Member& member, const Movement* movement, StopCheck& watch,
+Search::Search(const PhaseQuery& query, const Segments::Member& member, const Movement* movement, StopCheck& stop_check,
                bool all)
-    : Search(query, member, movement, &watch, {}, all) {}
+    : Search(query, member, movement, &stop_check, {}, all) {}
 
-Search::Search(const PhaseQuery& query, const Segments::Member& member, const Movement* movement, StopCheck* watch,
+Search::Search(const PhaseQuery& query, const Segments::Member& member, const Movement* movement, StopCheck* stop_check,
                const FindLimits& limits, bool all)
     : member_(member),
       table_(member.table),
       movement_(movement),
-      own_watch_(limits),
-      watch_(watch != nullptr ? *watch : own_watch_),
-      variables_(query, table_, watch_),
-      inner_(watch != nullptr),
+      own_stop_check_(limits),
+      stop_check_(stop_check != nullptr ? *stop_check : own_stop_check_),
+      variables_(query, table_, stop_check_),
+      inner_(stop_check != nullptr),
       all_rows_(all || !variables_.none()),
       exhaustive_(inner_ && (all || is_marked(query))),
-      query_(bind(query, member, movement, watch_, all_rows_)) {
+      query_(bind(query, member, movement, stop_check_, all_rows_)) {
   plan_ = plan(query_);
   start_ = plan_.element;
   part_count_ = part_count(query);
   rows_.resize(part_count_, kNoRow);
   kept_parts_ = part_count_;
-  if (inner_) query_.answer = query_.places;  // whatever is marked, a partner is the whole
+  if (inner_) query_.answer = query_.places;  // a partner is the whole, whatever is marked
   restricted_ = std::ranges::any_of(query_.elements, [](const auto& element) { return !element.wholes.empty(); });
   checked_ = restricted_ || !variables_.none();
 }
 
 bool Search::less(const Match& a, const Match& b) {
-  watch_.tick();
+  stop_check_.tick();
   if (a.recording != b.recording) return a.recording < b.recording;
   if (a.span.begin != b.span.begin) return a.span.begin < b.span.begin;
   if (a.span.end != b.span.end) return a.span.end < b.span.end;
@@ -102,9 +102,9 @@ bool Search::less(const Match& a, const Match& b) {
   return false;
 }
 
-/// One answer.
+/// Whether two matches are the same answer.
 bool Search::same(const Match& a, const Match& b) {
-  watch_.tick();
+  stop_check_.tick();
   if (a.row != b.row || kept_parts_ == 0) return a.row == b.row;
   const std::span<const RowId> one = parts_of(a);
   const std::span<const RowId> other = parts_of(b);
@@ -116,18 +116,18 @@ void Search::run(const FindLimits& limits, bool parts) {
   limits_ = limits;
   if (limits.limit && *limits.limit > kMostAnswers) limits_.limit.reset();
   kept_parts_ = part_count_ == 1 || (!parts && one_row()) ? 0 : part_count_;
-  watch_.begin(limits);
-  watch_.check();
+  stop_check_.begin(limits);
+  stop_check_.check();
   matches_.clear();
   parts_.clear();
-  std::ranges::fill(rows_, kNoRow);  // a search that was stopped left them
+  std::ranges::fill(rows_, kNoRow);  // an interrupted search leaves them filled
   counts_ = {};
   kept_ = 0;
   planned_ = false;
   ordered_ = true;
   bounded_ = false;
   std::uint32_t recording = 0;
-  RowId end = 0;  // of its rows
+  RowId end = 0;  // end of its rows
   for (const RowId row : first_rows()) {
     ++counts_.looked_at;
     if (row >= end) {
@@ -140,7 +140,7 @@ void Search::run(const FindLimits& limits, bool parts) {
   tidy();
 }
 
-/// Finds the matches of one recording, unless they are there.
+/// Finds the matches of one recording unless they are already loaded.
 void Search::collect(std::uint32_t recording) {
   if (recording_ == recording) return;
   recording_.reset();
@@ -163,7 +163,7 @@ void Search::collect(std::uint32_t recording) {
 }
 
 void Search::look_from(RowId row, std::uint32_t recording) {
-  watch_.tick();
+  stop_check_.tick();
   Matcher& matcher = query_.elements[start_].matcher;
   if (!plan_.exact && !(plan_.on_tier ? matcher.accepts_on_tier(row) : matcher.accepts(row))) return;
   ++counts_.kept;
@@ -181,34 +181,34 @@ std::span<const RowId> Search::first_rows() {
   if (planned_) return first_;
   const MovingTable moving{movement_, &member_.numbers};
   if (!plan_.relation) {
-    if (const auto list = one_list(plan_.accesses)) {
+    if (const auto list = one_list(plan_.access_paths)) {
       first_ = *list;
     } else {
-      candidates(plan_.accesses, table_, moving, watch_, candidates_);
+      candidates(plan_.access_paths, table_, moving, stop_check_, candidates_);
       first_ = candidates_;
     }
     planned_ = true;
     return first_;
   }
   std::vector<RowId> found;
-  candidates(plan_.accesses, table_, moving, watch_, found);
+  candidates(plan_.access_paths, table_, moving, stop_check_, found);
   BoundQuery::BoundRelation& relation = query_.elements[start_].relations[*plan_.relation];
   candidates_.clear();
   for (const RowId partner : found) {
     if (!relation.matcher->accepts(partner)) continue;
     const TimeSpan span = table_.span(partner);
     for_rows_around(table_, table_.recording(partner), span, [&](RowId other) {
-      watch_.tick();
+      stop_check_.tick();
       if (other != partner && related(table_.span(other), relation.link, span)) candidates_.push_back(other);
       return true;
     });
   }
-  sort_rows(candidates_, table_.size(), watch_);
+  sort_rows(candidates_, table_.size(), stop_check_);
   planned_ = true;
   return first_ = candidates_;
 }
 
-/// Whether the parts that are chosen leave values for the variables, and fulfil what is said of groups.
+/// Whether the chosen parts allow values for the variables and meet the conditions on groups.
 bool Search::may_be() const {
   if (!checked_) return true;
   if (!variables_.none() && !variables_.hold(rows_)) return false;
@@ -225,14 +225,14 @@ bool Search::may_be() const {
   return true;
 }
 
-/// Whether all that begins with the places up to this one comes after the last of as many answers as are asked for.
+/// Whether every match that begins with the places up to this one comes after the last match within the limit.
 bool Search::too_late(std::size_t place) {
   if (!bounded_ || start_ != 0 || query_.answer != query_.places) return false;
   const TimeSpan worst = matches_[*limits_.limit - 1].span;
   const RowId row = row_at(place);
   const Milliseconds begin = table_.begin(row_at(0));
   if (begin != worst.begin) return begin > worst.begin;
-  return table_.end(row) > worst.end && table_.tier_rows_of(row).apart();  // then what follows ends later still
+  return table_.end(row) > worst.end && table_.tier_rows_of(row).apart();  // if so, the following rows end even later
 }
 
 /// Fills the places from `place` to the last, then those before the first one filled.
@@ -266,7 +266,7 @@ void Search::place_before(std::size_t place) {
   for (const RowId row : gap.direct() ? previous_rows(table_, from) : rows_before(table_, from, gap)) use(row);
 }
 
-/// Finds partners from this relation of this element on: all of them where they are the answer or a variable decides,
+/// Finds partners from this relation of this element onwards: all of them if they are the answer or a variable decides,
 /// else the first in time.
 void Search::relate(std::size_t e, std::size_t r) {
   if (e == query_.elements.size()) return keep();
@@ -287,13 +287,13 @@ bool Search::is_place(std::size_t e, std::size_t places, RowId row) {
   return false;
 }
 
-/// Calls `use(row)` for the partners of the places up to an element in a relation, in no order; with `first` for some
-/// of them, among which is the first in time.
+/// Calls `use(row)` for the partners of the places up to an element in a relation, in no order; with `first`, only for
+/// some of them, which include the first in time.
 template <typename Use>
 void Search::for_partners(std::size_t e, BoundQuery::BoundRelation& relation, TimeSpan span, bool first, Use&& use) {
   const RowId row = row_at(e);
   const auto is_partner = [&](RowId other) {
-    watch_.tick();
+    stop_check_.tick();
     return other != row && related(span, relation.link, table_.span(other)) &&
            (relation.places == 1 || !is_place(e, relation.places, other));
   };
@@ -316,7 +316,7 @@ void Search::for_partners(std::size_t e, BoundQuery::BoundRelation& relation, Ti
          other < end && table_.begin(other) <= span.end; ++other) {
       if (!is_partner(other) || !relation.matcher->accepts_on_tier(other)) continue;
       use(other);
-      if (first) break;  // they come in time
+      if (first) break;  // they are in time order
     }
   }
 }
@@ -341,7 +341,7 @@ void Search::relate_to_row(std::size_t e, std::size_t r, TimeSpan span) {
       if (!may_be()) continue;
       const std::size_t before = kept_;
       relate(e, r + 1);
-      // The first that leads to an answer; where another part is asked for, that may need others.
+      // The first partner that leads to an answer suffices, unless another part is the answer.
       if (!query_.marked && !exhaustive_ && kept_ > before) break;
     }
   }
@@ -407,24 +407,24 @@ void Search::keep() {
   bounded_ = limits_.limit && matches_.size() >= *limits_.limit;
   if ((limits_.limit || matches_.size() < most) && parts_.size() <= most_parts) return;
   const std::string what =
-      inner_ ? fmt::format("query: a sequence in a relation is there in more than {} ways in one recording; narrow it",
+      inner_ ? fmt::format("query: a sequence in a relation has more than {} matches in one recording; narrow it",
                            kMostPartners)
              : fmt::format("query: more than {} answers, or {} parts of them; narrow it, or give a limit", kMostAnswers,
                            kMostParts);
   throw Error(ErrorCode::bad_input, what);
 }
 
-/// Sorts what was found, drops what is there twice, and what is past the limit.
+/// Sorts the matches, removes duplicates, and drops those past the limit.
 void Search::tidy() {
-  watch_.check();
+  stop_check_.check();
   if (!ordered_) sort_matches();
   ordered_ = true;
   if (limits_.limit && matches_.size() > *limits_.limit) matches_.resize(*limits_.limit);
   if (kept_parts_ == 0 || parts_.size() <= 2 * kept_parts_ * matches_.size()) return;
-  std::vector<RowId> kept;  // what nothing refers to any more would only grow
+  std::vector<RowId> kept;  // parts that no match refers to would only accumulate
   kept.reserve(kept_parts_ * matches_.size());
   for (Match& match : matches_) {
-    watch_.tick();
+    stop_check_.tick();
     const std::span<const RowId> parts = parts_of(match);
     match.parts = static_cast<std::uint32_t>(kept.size());
     kept.insert(kept.end(), parts.begin(), parts.end());
@@ -432,7 +432,7 @@ void Search::tidy() {
   parts_ = std::move(kept);
 }
 
-/// In order, each once.
+/// Sorts the matches and removes duplicates.
 void Search::sort_matches() {
   std::sort(matches_.begin(), matches_.end(), [this](const Match& a, const Match& b) { return less(a, b); });
   const auto same = [this](const Match& a, const Match& b) { return this->same(a, b); };
@@ -446,7 +446,7 @@ bool Search::full() {
 }
 
 Segment Search::segment_of(const Match& match) {
-  watch_.tick();
+  stop_check_.tick();
   Segment result;
   result.recording = table_.recording_at(match.recording);
   result.tier = table_.tier_at(table_.tier(match.row));

@@ -12,7 +12,7 @@
 namespace signweave {
 namespace {
 
-/// What is told of numbers that come one by one.
+/// Accumulates a statistic of values that arrive one by one.
 struct SeriesSum {
   float first = kNotKnown;
   float last = kNotKnown;
@@ -40,7 +40,7 @@ float asked_for(const MovementTerm& term, const SeriesSum& sum) noexcept {
   return term.component == Component::least ? sum.least : sum.most;
 }
 
-/// Its values at some frames; none: not known.
+/// Its values at some frames; empty: not known.
 std::vector<float> values_of(const MovementTerm& term, const Movement& movement, std::uint32_t recording,
                              FrameRange frames) {
   if (!is_gaze(term.quantity)) return movement.track(recording, term.track, frames);
@@ -57,10 +57,10 @@ void require_tracks(const Expression& expression, const Movement& movement) {
     const bool track = is_series(term.quantity) && !is_gaze(term.quantity);
     if (!track || movement.has_track(term.track)) return;
     const std::vector<std::string> known = movement.tracks();
-    const std::string mend =
-        known.empty() ? "; import a face capture, NAME.face.csv, beside its motion" : did_you_mean(term.track, known);
+    const std::string hint =
+        known.empty() ? "; import a face capture, NAME.face.csv, with its motion" : did_you_mean(term.track, known);
     throw Error(ErrorCode::not_found, fmt::format("{}({}): no recording of this database has such a scalar track{}",
-                                                  word_of(term.quantity), in_quotes(printable(term.track)), mend));
+                                                  word_of(term.quantity), in_quotes(printable(term.track)), hint));
   }
   for (const Expression& operand : expression.operands) require_tracks(operand, movement);
   for (const PhaseQuery& sequence : expression.sequence) require_tracks(sequence, movement);
@@ -73,12 +73,12 @@ void require_tracks(const PhaseQuery& query, const Movement& movement) {
 }
 
 float series_over(const MovementTerm& term, const Movement& movement, std::uint32_t recording,
-                  std::span<const TimeSpan> stretches) {
+                  std::span<const TimeSpan> spans) {
   const FrameClock clock = movement.clock(recording);
   const std::int64_t count = movement.frame_count(recording);
   SeriesSum sum;
-  bool known = !stretches.empty();
-  for (const TimeSpan span : stretches) {
+  bool known = !spans.empty();
+  for (const TimeSpan span : spans) {
     const FrameRange frames = measured_frames(span, clock, count);
     known = known && !frames.empty();
     if (!known) break;

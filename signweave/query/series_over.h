@@ -7,17 +7,16 @@
 #include "signweave/query/movement_term.h"
 #include "signweave/query/phase_query.h"
 
-/// Inside this module only: what scalar tracks and the gaze are over a segment.
+/// Internal to this module: the values of scalar tracks and the gaze over a segment.
 namespace signweave {
 
-/// The number that a term on a scalar track or the gaze (is_series) asks for, over the stretches of a row in order: the
-/// most, the least or the mean of all their frames, or that of the first or last. kNotKnown where there is no stretch,
-/// one lies outside of the motion, the recording has no such thing, or a value is no finite number. Throws what
-/// `movement` does.
+/// The value of a term on a scalar track or the gaze (is_series) over the spans of a row in order: maximum, minimum or
+/// mean of all frames, or the value of the first or last. kNotKnown if there is no span, a span lies outside the
+/// motion, the recording has no such track or gaze, or a value is not finite. Throws what `movement` throws.
 float series_over(const MovementTerm& term, const Movement& movement, std::uint32_t recording,
-                  std::span<const TimeSpan> stretches);
+                  std::span<const TimeSpan> spans);
 
-/// Throws Error{not_found} with near matches where a condition of the query is on a scalar track that no recording has.
+/// Throws Error{not_found} with near matches if a condition of the query is on a scalar track that no recording has.
 void require_tracks(const PhaseQuery& query, const Movement& movement);
 
 }  // namespace signweave

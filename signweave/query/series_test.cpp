@@ -25,7 +25,7 @@ namespace {
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-/// Tracks as told, ten frames a second, the same for every recording but those that have none.
+/// Given tracks, ten frames per second, the same for every recording except those without tracks.
 class MadeTracks : public Movement {
  public:
   std::map<std::string, std::vector<float>, std::less<>> values;
@@ -72,24 +72,24 @@ class Series : public testing::Test {
     tracks_.values["tilt"] = {-0.5f, -0.2f, -0.4f, 0.1f, 0.3f, std::numeric_limits<float>::quiet_NaN()};
     tracks_.eyes = {{10, 1}, {-20, 2}, {4, -30}, {0, 0}, {0, 0}, {0, 0}};
   }
-  float at(const std::string& text, std::vector<TimeSpan> stretches) const {
-    return series_over(term_of(text), tracks_, 0, stretches);
+  float at(const std::string& text, std::vector<TimeSpan> spans) const {
+    return series_over(term_of(text), tracks_, 0, spans);
   }
   MadeTracks tracks_;
 };
 
-TEST_F(Series, HasTheMostTheLeastTheMeanAndBothEnds) {
+TEST_F(Series, HasMaximumMinimumMeanAndBothEnds) {
   const std::vector<TimeSpan> span = {{100ms, 500ms}};  // frames 1 to 4
   EXPECT_FLOAT_EQ(at("track(jawOpen)", span), 0.9f);
   EXPECT_FLOAT_EQ(at("track(jawOpen).least", span), 0.2f);
   EXPECT_FLOAT_EQ(at("mean_track(jawOpen)", span), 0.45f);  // (0.2 + 0.9 + 0.4 + 0.3) / 4
   EXPECT_FLOAT_EQ(at("track(jawOpen).begin", span), 0.2f);
   EXPECT_FLOAT_EQ(at("track(jawOpen).end", span), 0.3f);
-  EXPECT_FLOAT_EQ(at("track(tilt)", {{0ms, 300ms}}), -0.2f) << "the most, not the farthest from 0";
+  EXPECT_FLOAT_EQ(at("track(tilt)", {{0ms, 300ms}}), -0.2f) << "the maximum, not the value farthest from 0";
   EXPECT_FLOAT_EQ(at("track(tilt).least", {{0ms, 300ms}}), -0.5f);
 }
 
-TEST_F(Series, GazeIsAskedForByAngle) {
+TEST_F(Series, GazeIsQueriedByAngle) {
   const std::vector<TimeSpan> span = {{0ms, 300ms}};
   EXPECT_FLOAT_EQ(at("gaze(yaw)", span), 10);
   EXPECT_FLOAT_EQ(at("gaze(yaw).least", span), -20);
@@ -98,7 +98,7 @@ TEST_F(Series, GazeIsAskedForByAngle) {
   EXPECT_FLOAT_EQ(at("gaze(pitch).end", span), -30);
 }
 
-TEST_F(Series, SeveralStretchesAreTakenTogether) {
+TEST_F(Series, SeveralSpansAreTakenTogether) {
   const std::vector<TimeSpan> strokes = {{0ms, 100ms}, {300ms, 500ms}};  // frames 0, 3 and 4
   EXPECT_FLOAT_EQ(at("track(jawOpen)", strokes), 0.4f);
   EXPECT_FLOAT_EQ(at("track(jawOpen).least", strokes), 0.1f);
@@ -115,7 +115,7 @@ TEST_F(Series, ASegmentIsMeasuredAsFarAsTheMotionGoes) {
   EXPECT_TRUE(std::isnan(at("track(jawOpen)", {}))) << "a sign without stroke";
 }
 
-TEST_F(Series, WhatIsNotThereOrIsNoNumberIsNotKnown) {
+TEST_F(Series, AMissingOrNanValueIsNotKnown) {
   EXPECT_TRUE(std::isnan(at("track(mouthLeft)", {{0ms, 300ms}})));
   EXPECT_TRUE(std::isnan(at("track(tilt)", {{300ms, 600ms}})));
   EXPECT_TRUE(std::isnan(at("track(tilt).begin", {{300ms, 600ms}})));
@@ -123,7 +123,7 @@ TEST_F(Series, WhatIsNotThereOrIsNoNumberIsNotKnown) {
   EXPECT_TRUE(std::isnan(at("gaze(yaw)", {{0ms, 300ms}})));
 }
 
-TEST_F(Series, ALongSegmentIsReadInPieces) {
+TEST_F(Series, ALongSegmentIsReadInBlocks) {
   tracks_.values.clear();
   std::vector<float>& long_one = tracks_.values["jawOpen"];
   for (int i = 0; i < 2'000; ++i) long_one.push_back(static_cast<float>(i % 7));
@@ -156,8 +156,8 @@ class SeriesSearch : public Series {
   Segments segments_ = three_signs();
 };
 
-TEST_F(SeriesSearch, FindsTheSignsWhoseStrokesFulfilIt) {
-  // A has 0.1 and 0.2, B 0.9 (its hold 0.4 does not count), C 0.3 and 0; D nobody knows.
+TEST_F(SeriesSearch, FindsTheSignsWhoseStrokesMeetIt) {
+  // A has 0.1 and 0.2, B 0.9 (its hold 0.4 does not count), C 0.3 and 0; D is not known.
   EXPECT_THAT(found("gloss =~ /.*/ & track(jawOpen) > 0.25"), ElementsAre("B", "C"));
   EXPECT_THAT(found("track(jawOpen) <= 0.35"), ElementsAre("A", "C"));
   EXPECT_THAT(found("track(jawOpen).least < 0.1"), ElementsAre("C"));
@@ -168,22 +168,22 @@ TEST_F(SeriesSearch, FindsTheSignsWhoseStrokesFulfilIt) {
   EXPECT_THAT(found("phase = stroke & parent(track(jawOpen) > 0.5)"), ElementsAre("B stroke"));
 }
 
-TEST_F(SeriesSearch, WhatIsNotKnownFulfilsNothingButItsNegation) {
+TEST_F(SeriesSearch, AnUnknownValueMeetsOnlyANegation) {
   EXPECT_THAT(found("gloss = D & track(jawOpen) > 0.1"), ElementsAre());
   EXPECT_THAT(found("gloss = D & track(jawOpen) <= 0.1"), ElementsAre());
   EXPECT_THAT(found("gloss = D & !(track(jawOpen) > 0.1)"), ElementsAre("D"));
 }
 
-TEST_F(SeriesSearch, ReadsOnlyWhatFulfilsTheRestAndThatOnce) {
+TEST_F(SeriesSearch, ReadsOnlyRowsThatMeetTheRestAndEachOnce) {
   EXPECT_THAT(found("track(jawOpen) > 0.1 & duration < 1s & begin >= 400ms"), ElementsAre("C"));
   EXPECT_THAT(tracks_.read, ElementsAre(FrameRange{4, 6}));
   tracks_.read.clear();
-  // Both phases of B ask for their sign, which is looked at once, as are those of A, C and D.
+  // Both phases of B query their sign, which is read once, as are those of A, C and D.
   EXPECT_THAT(found("phase =~ /.*/ & parent(track(jawOpen) > 0.8)"), ElementsAre("B stroke", "B hold"));
   EXPECT_EQ(tracks_.read.size(), 4U);
 }
 
-TEST_F(SeriesSearch, ATrackThatNoRecordingHasIsAFaultWithNearOnes) {
+TEST_F(SeriesSearch, AnUnknownTrackIsAnErrorWithNearMatches) {
   const auto fault = [&](const std::string& text) -> std::string {
     try {
       found(text);
@@ -198,32 +198,32 @@ TEST_F(SeriesSearch, ATrackThatNoRecordingHasIsAFaultWithNearOnes) {
   EXPECT_THAT(fault("gloss = A overlaps (gloss = B -> mean_track(xyz) > 0)"), HasSubstr("mean_track(\"xyz\"): no"));
   EXPECT_THAT(fault("gloss = A & during(gloss = B -> track(xyz) > 0)"), HasSubstr("track(\"xyz\"): no recording"));
   tracks_.values.clear();
-  EXPECT_THAT(fault("track(jawOpen) > 0"), HasSubstr("import a face capture, NAME.face.csv, beside its motion"));
-  EXPECT_NO_THROW(find(parse("track(jawOpen) > 0"), segments_)) << "where nothing is known of movement";
+  EXPECT_THAT(fault("track(jawOpen) > 0"), HasSubstr("import a face capture, NAME.face.csv, with its motion"));
+  EXPECT_NO_THROW(find(parse("track(jawOpen) > 0"), segments_)) << "no movement is known";
 }
 
-TEST_F(SeriesSearch, TheTextTellsWhatIsReadLast) {
+TEST_F(SeriesSearch, ThePlanStatesWhatIsReadLast) {
   EXPECT_THAT(explain(parse("gloss = A & track(jawOpen) > 0.1"), segments_),
-              HasSubstr("2. keep those with gloss = \"A\" & track(\"jawOpen\") > 0.1; read from the motion, where the "
-                        "rest does not tell: track(\"jawOpen\") > 0.1\n"));
+              HasSubstr("2. keep those with gloss = \"A\" & track(\"jawOpen\") > 0.1; read from the motion if the rest "
+                        "does not decide: track(\"jawOpen\") > 0.1\n"));
   EXPECT_THAT(explain(parse("gaze(yaw) > 3 deg"), segments_), HasSubstr("gaze(yaw) > 3 deg, read from the motion\n"));
 }
 
-TEST_F(SeriesSearch, StopsWhereItsTimeIsOver) {
+TEST_F(SeriesSearch, StopsAtItsDeadline) {
   const std::atomic<bool> cancel = true;
   FindLimits limits;
   limits.cancel = &cancel;
   EXPECT_THROW(find(parse("track(jawOpen) > 0"), segments_, limits, &tracks_), Error);
 }
 
-/// Every frame of a row looked at in the plainest way.
+/// Reads every frame of a row in the simplest way.
 float plain_answer(const MovementTerm& term, const Movement& movement, std::uint32_t recording,
                    const std::vector<TimeSpan>& strokes) {
   std::vector<double> all;
   for (const TimeSpan span : strokes) {
     std::size_t inside = 0;
     for (std::int64_t frame = 0; frame < movement.frame_count(recording); ++frame) {
-      // The frames whose time lies in the span: 60 a second, from annotation time 0.
+      // The frames whose time lies in the span: 60 per second, from annotation time 0.
       const FrameRange one = frames_of(span, movement.clock(recording));
       if (frame < one.begin || frame >= one.end) continue;
       ++inside;
@@ -251,7 +251,7 @@ float plain_answer(const MovementTerm& term, const Movement& movement, std::uint
   return static_cast<float>(sum / static_cast<double>(all.size()));
 }
 
-RC_GTEST_PROP(SeriesProperty, ASearchFindsWhatLookingAtEveryFrameFinds, (std::uint32_t seed)) {
+RC_GTEST_PROP(SeriesProperty, ASearchFindsTheSameAsReadingEveryFrame, (std::uint32_t seed)) {
   std::mt19937 random(seed);
   const Segments segments = weather_corpus().table();
   static const std::unique_ptr<TestMovement> movement = weather_movement(segments);

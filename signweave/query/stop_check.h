@@ -11,31 +11,31 @@ namespace signweave {
 
 /// When to stop a search.
 struct FindLimits {
-  std::optional<std::size_t> limit;  ///< at most so many segments: the first in the order of the answer
+  std::optional<std::size_t> limit;  ///< maximum number of segments: the first in the order of the answer
   std::optional<std::chrono::steady_clock::time_point> deadline;
   const std::atomic<bool>* cancel = nullptr;  ///< borrowed; set to true from any thread
 };
 
-/// Looks at deadline and cancel now and then. Belongs to one search.
+/// Polls the deadline and the cancel flag. Belongs to one search.
 class StopCheck {
  public:
   explicit StopCheck(const FindLimits& limits = {}) : limits_(limits) {}
-  /// For another search.
+  /// Restarts for another search.
   void begin(const FindLimits& limits) {
     limits_ = limits;
     ticks_ = 0;
   }
 
-  /// To be called for each row that is looked at. Throws Error{cancelled}.
+  /// To be called for each row examined. Throws Error{cancelled}.
   void tick() {
     if ((++ticks_ & 0x3FF) == 0) check();
   }
   void check() const {
     if (limits_.cancel != nullptr && limits_.cancel->load(std::memory_order_relaxed)) {
-      throw Error(ErrorCode::cancelled, "query: stopped on request; ask again to start over");
+      throw Error(ErrorCode::cancelled, "query: stopped on request; run it again to start over");
     }
     if (limits_.deadline && std::chrono::steady_clock::now() >= *limits_.deadline) {
-      throw Error(ErrorCode::cancelled, "query: its time is over; allow more time, or narrow the query");
+      throw Error(ErrorCode::cancelled, "query: timed out; allow more time, or narrow the query");
     }
   }
 

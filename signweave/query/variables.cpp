@@ -8,15 +8,15 @@
 
 namespace signweave {
 
-VariableCheck::VariableCheck(const PhaseQuery& query, const SegmentTable& table, StopCheck& watch)
-    : table_(&table), watch_(&watch) {
+VariableCheck::VariableCheck(const PhaseQuery& query, const SegmentTable& table, StopCheck& stop_check)
+    : table_(&table), stop_check_(&stop_check) {
   std::size_t part = 0;
-  for_parts(query, [&](const Term& term) { look_at(term.expression, part++); });
+  for_parts(query, [&](const Term& term) { collect_uses(term.expression, part++); });
 }
 
-void VariableCheck::look_at(const Expression& expression, std::size_t part) {
+void VariableCheck::collect_uses(const Expression& expression, std::size_t part) {
   if (expression.kind == Expression::Kind::all) {
-    for (const Expression& operand : expression.operands) look_at(operand, part);
+    for (const Expression& operand : expression.operands) collect_uses(operand, part);
     return;
   }
   if (expression.kind != Expression::Kind::condition) return;
@@ -52,7 +52,7 @@ void VariableCheck::labels_of(const Use& use, RowId row, std::vector<std::uint32
     const SegmentTable::TierRows* rows = table_->tier_rows(own.recording, tier);
     if (rows == nullptr) continue;
     for_rows_around(*table_, *rows, rows->own(), span, [&](RowId other) {
-      watch_->tick();
+      stop_check_->tick();
       if (span.overlaps(table_->span(other))) labels.push_back(table_->label(other));
       return true;
     });
@@ -76,11 +76,11 @@ bool VariableCheck::value_of(const Variable& variable, std::span<const RowId> pa
     if (possible->empty()) return false;
   }
   value = SegmentTable::kNone;
-  if (!possible) return true;  // nothing says yet what it is
+  if (!possible) return true;  // nothing restricts its value yet
   for (const Use& use : variable.uses) {
     if (use.equal || row_of(use) == kNoRow) continue;
     labels_of(use, row_of(use), labels);
-    // As of a text: some label of the tier is another; of a sign, its gloss is.
+    // As for a text: some label of the tier is another; for a sign, its gloss is.
     std::erase_if(*possible, [&](std::uint32_t one) {
       return std::ranges::all_of(labels, [&](std::uint32_t label) { return label == one; });
     });

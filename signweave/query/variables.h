@@ -12,24 +12,24 @@
 
 namespace signweave {
 
-/// Whether the variables of a query have values: for each one label that all conditions `= $X` hold for, and no
-/// condition `!= $X`. Such conditions stand in a part joined by `&` only, which the parser sees to, so that they can be
-/// looked at apart from the others. Borrows all. For one thread.
+/// Whether the variables of a query have values: for each variable, one label for which all conditions `= $X` hold and
+/// no condition `!= $X` fails. The parser ensures that such conditions are joined by `&` only, so they can be evaluated
+/// separately from the others. Borrows its arguments. For one thread.
 class VariableCheck {
  public:
-  VariableCheck(const PhaseQuery& query, const SegmentTable& table, StopCheck& watch);
+  VariableCheck(const PhaseQuery& query, const SegmentTable& table, StopCheck& stop_check);
 
   bool none() const noexcept { return variables_.empty(); }
-  /// Of the parts that are filled (kNoRow: not yet), as Segment::parts lists them.
+  /// Checks the parts that are filled (kNoRow: not yet), in the order of Segment::parts.
   bool hold(std::span<const RowId> parts) const;
-  /// The names and values (match form), where they hold.
+  /// The names and values (match form), given that they hold.
   std::vector<std::pair<std::string, std::string>> values(std::span<const RowId> parts) const;
 
  private:
   struct Use {
     std::size_t part = 0;
     Field field = Field::gloss;
-    std::vector<std::uint32_t> tiers;  ///< of Field::tier
+    std::vector<std::uint32_t> tiers;  ///< for Field::tier
     bool equal = true;
   };
   struct Variable {
@@ -37,12 +37,12 @@ class VariableCheck {
     std::vector<Use> uses;
   };
 
-  void look_at(const Expression& expression, std::size_t part);
+  void collect_uses(const Expression& expression, std::size_t part);
   void labels_of(const Use& use, RowId row, std::vector<std::uint32_t>& labels) const;
   bool value_of(const Variable& variable, std::span<const RowId> parts, std::uint32_t& value) const;
 
   const SegmentTable* table_;
-  StopCheck* watch_;
+  StopCheck* stop_check_;
   std::vector<Variable> variables_;
 };
 

@@ -61,7 +61,7 @@ TestCorpus random_corpus(unsigned seed) {
   return corpus;
 }
 
-TEST(Variables, AreOneLabelInEveryPlace) {
+TEST(Variables, HaveOneLabelInEveryPlace) {
   const std::vector<Segment> found =
       find(parse("gloss = $X & hand = right overlaps gloss = $X & hand = left"), weather_corpus().table());
   ASSERT_EQ(found.size(), 2U);
@@ -74,7 +74,7 @@ TEST(Variables, AreOneLabelInEveryPlace) {
               ElementsAre("meteo MATIN NUAGES VANNES 500..3000", "meteo MATIN BROUILLARD PLUIE 4200..6700"));
 }
 
-TEST(Variables, GiveWhatAllLabelsGiveOneByOne) {
+TEST(Variables, GiveTheUnionOverAllLabels) {
   for (unsigned seed = 0; seed < 40; ++seed) {
     const Segments segments = random_corpus(seed).table();
     for (const char* form :
@@ -91,7 +91,7 @@ TEST(Variables, GiveWhatAllLabelsGiveOneByOne) {
       }
       const std::vector<std::string> all = answers_in(fmt::format(fmt::runtime(form), "$X"), segments);
       const std::multiset<std::string> found(all.begin(), all.end());
-      // One sign overlaps mouthings of two labels at once, and is one answer all the same.
+      // One sign overlaps mouthings of two labels at once, but is one answer.
       const std::set<std::string> once(expected.begin(), expected.end());
       EXPECT_EQ(std::set<std::string>(found.begin(), found.end()), once) << form << " of seed " << seed;
       EXPECT_LE(found.size(), expected.size());
@@ -99,10 +99,10 @@ TEST(Variables, GiveWhatAllLabelsGiveOneByOne) {
   }
 }
 
-TEST(Variables, StandWhereTheyMeanSomething) {
-  EXPECT_THAT(fault_of("gloss = $X | gloss = \"A\""), HasSubstr("outside of |, ! and links"));
-  EXPECT_THAT(fault_of("!(gloss = $X)"), HasSubstr("outside of |, ! and links"));
-  EXPECT_THAT(fault_of("child(gloss = $X)"), HasSubstr("outside of |, ! and links"));
+TEST(Variables, AreRejectedWhereTheyHaveNoMeaning) {
+  EXPECT_THAT(fault_of("gloss = $X | gloss = \"A\""), HasSubstr("outside |, ! and links"));
+  EXPECT_THAT(fault_of("!(gloss = $X)"), HasSubstr("outside |, ! and links"));
+  EXPECT_THAT(fault_of("child(gloss = $X)"), HasSubstr("outside |, ! and links"));
   EXPECT_THAT(fault_of("hand = $X"), HasSubstr("stands for a label"));
   EXPECT_THAT(fault_of("gloss =~ $X"), HasSubstr("stands for a label"));
   EXPECT_THAT(fault_of("$X = gloss"), HasSubstr("'$X' stands alone"));
@@ -124,7 +124,7 @@ TEST(Units, AreTheSignsBetweenTwoRests) {
                           "meteo NUAGES PLUIE 1000..6900"));
   EXPECT_THAT(answers_in("unit & gloss = \"BREST\""), ElementsAre()) << "a unit has no gloss";
   EXPECT_THAT(answers_in("!(unit)"), ElementsAre());
-  EXPECT_THAT(answers_in("duration > 2s & recording = meteo"), ElementsAre()) << "signs, as ever";
+  EXPECT_THAT(answers_in("duration > 2s & recording = meteo"), ElementsAre()) << "signs, as without units";
 }
 
 TEST(Signers, AreThoseOfTheirTiersOrRecordings) {
@@ -133,7 +133,7 @@ TEST(Signers, AreThoseOfTheirTiersOrRecordings) {
   EXPECT_THAT(answers_in("signer =~ /AN+A/i & gloss = \"VANNES\""), ElementsAre("meteo VANNES 2300..3000"));
 }
 
-TEST(PreparedQuery, MayBeAskedAgainAndGivesRowsWithoutNames) {
+TEST(PreparedQuery, CanBeRunAgainAndReturnsRowsWithoutNames) {
   const auto segments = std::make_shared<const Segments>(weather_corpus().table());
   PreparedQuery query(parse("gloss = \"MATIN\" overlaps tier(\"Mouthing\") = \"matin\""), segments);
   const std::vector<Segment> first = query.find();

@@ -23,7 +23,7 @@ Vocabulary vocabulary(const Segments& segments) {
   }
   std::set<std::string, std::less<>> signers;
   for (std::uint32_t recording = 0; recording < segments.recording_count(); ++recording) {
-    const SegmentTable::Part part = segments.part(recording);
+    const SegmentTable::RecordingRef part = segments.part(recording);
     for (const SegmentTable::TierRows& tier : part.table->tiers_of(part.recording)) {
       const std::string_view signer = part.table->text_at(tier.signer);
       if (!signer.empty() && !signers.contains(signer)) signers.emplace(signer);
@@ -44,7 +44,7 @@ std::vector<LabelCount> labels_of(const Segments& segments, std::string_view tie
     const SegmentTable& table = member.table;
     const std::uint32_t number = table.find_tier(tier);
     if (number == SegmentTable::kNone) continue;
-    std::unordered_map<std::uint32_t, std::size_t> counts;  // of labels, as the table numbers them
+    std::unordered_map<std::uint32_t, std::size_t> counts;  // by the table's label numbers
     for (std::uint32_t recording = 0; recording < table.recording_count(); ++recording) {
       const SegmentTable::TierRows* rows = table.tier_rows(recording, number);
       if (rows == nullptr || member.numbers[recording] == Segments::kNone) continue;

@@ -31,7 +31,7 @@ std::vector<std::string> shown_words(const Vocabulary& words) {
   return result;
 }
 
-TEST(Vocabulary, CountsWhatIsFoundOverAllTables) {
+TEST(Vocabulary, CountsOverAllTables) {
   const Segments segments({{corpus("a", {"PLUIE", "LE MANS", "PLUIE"}), 1}, {corpus("b", {"PLUIE ", "VANNES"}), 2}});
   const Vocabulary words = vocabulary(segments);
   EXPECT_THAT(shown_words(words), ElementsAre("LE MANS 1", "PLUIE 3", "VANNES 1"));
@@ -42,7 +42,7 @@ TEST(Vocabulary, CountsWhatIsFoundOverAllTables) {
   }
 }
 
-TEST(Vocabulary, LeavesOutWhatIsNoMore) {
+TEST(Vocabulary, OmitsRemovedRecordings) {
   const std::vector<Segments::Tombstone> gone = {{"a", 5}};
   const Segments segments({{corpus("a", {"PLUIE", "BREST"}), 1}, {corpus("b", {"PLUIE"}), 2}}, gone);
   const Vocabulary words = vocabulary(segments);
@@ -72,11 +72,12 @@ TEST(Vocabulary, CountsTheLabelsOfATier) {
   }
   EXPECT_THAT(shown, ElementsAre("Pluie 1", "nuage 3", "pluie 1"));
   EXPECT_THAT(labels_of(segments, "mouthing"), testing::IsEmpty());
-  // Phases lie on a tier of their own, also those that were inferred for signs without; those are no annotations.
+  // Phases are on a tier of their own, including those inferred for signs without phases; the latter are not
+  // annotations.
   EXPECT_THAT(labels_of(segments, "Phase"), testing::IsEmpty());
 }
 
-TEST(Vocabulary, HasTheWordsThatQueriesAreMadeOf) {
+TEST(Vocabulary, HasTheWordsOfTheLanguage) {
   const LanguageWords words = language_words();
   EXPECT_THAT(words.fields, IsSupersetOf({"gloss", "phase", "tier", "duration", "signer"}));
   EXPECT_THAT(words.links, IsSupersetOf({"overlaps", "during", "equals"}));

@@ -8,13 +8,13 @@
 namespace signweave {
 namespace {
 
-/// Reads and joins the tracks of all clips. `tracks_` are the result's, in the frames of a window.
+/// Reads and joins the tracks of all clips. `tracks_` are the tracks of the result, in the frames of a window.
 class TrackCarrier {
  public:
   TrackCarrier(std::vector<ScalarTrack>& tracks, FrameRange window)
       : tracks_(tracks), window_(window), faded_(tracks.size()) {}
 
-  /// A clip, and the transition from the one before, which ends at output frame `last_end`.
+  /// Adds a clip and the transition from the previous one, which ends at output frame `last_end`.
   void carry(const PlacedClip& placed, std::int64_t last_end, bool first) {
     const std::int64_t shared = std::max<std::int64_t>(0, last_end - placed.begin());
     const FrameRange own{std::max(placed.begin() + shared, window_.begin), std::min(placed.end(), window_.end)};
@@ -31,19 +31,19 @@ class TrackCarrier {
   }
 
  private:
-  /// Reads all tracks of a clip at once, each to where it belongs among the result's; those that it lacks are 0.
-  template <typename Place>
-  void read(const PlacedClip& placed, FrameRange output, Place place) {
+  /// Reads all tracks of a clip at once into the result's tracks; tracks that the clip lacks become 0.
+  template <typename PositionOf>
+  void read(const PlacedClip& placed, FrameRange output, PositionOf position_of) {
     if (output.empty()) return;
     const std::span<const std::string> names = placed.captured->source->tracks();
     spans_.clear();
     for (const std::string& name : names) {
       const std::size_t index = index_of(name);
-      spans_.push_back(index < tracks_.size() ? place(index) : std::span<float>());
+      spans_.push_back(index < tracks_.size() ? position_of(index) : std::span<float>());
     }
     read_tracks(placed, output, spans_);
     for (std::size_t track = 0; track < tracks_.size(); ++track) {
-      if (std::ranges::find(names, tracks_[track].name) == names.end()) std::ranges::fill(place(track), 0.0f);
+      if (std::ranges::find(names, tracks_[track].name) == names.end()) std::ranges::fill(position_of(track), 0.0f);
     }
   }
 

@@ -32,17 +32,17 @@ void JunctionFiller::fill(const PlacedClip& a, const PlacedClip& b, const Transi
   } else if (shared.frame_count() > 0) {
     take_over(b, cuts, window, shared);
   }
-  // The body first: where it is, the arms' frames are those of whole poses.
+  // The body first, so that the arms are then filled in complete poses.
   for (std::size_t part = 0; part < (as_one ? 1 : kTimed); ++part) {
     const FrameRange gap{a.core_end() + cuts[part].retraction_frames, b.core - cuts[part].preparation_frames};
     if (gap.empty()) continue;
     fill_gap(a, b, gap, as_one ? GroupSet::all() : groups_of(kAllTimed[part]), cuts[part], window, scratch.gap);
   }
-  if (method_of(settings_, b).fill->offered != Offered::signing) return;  // shown as it is
+  if (method_of(settings_, b).fill->offered != Offered::signing) return;  // shown uncorrected
   for (const Timed part : {Timed::left, Timed::right}) {
     const TransitionCut& cut = cuts[static_cast<std::size_t>(part)];
     const FrameRange made{a.core_end() + cut.kept_after(), b.core - cut.kept_before()};
-    if (!made.empty()) guard_.mend(gap_at(a, b, made, window), groups_of(part), window.poses(made));
+    if (!made.empty()) guard_.repair(gap_at(a, b, made, window), groups_of(part), window.poses(made));
   }
 }
 
@@ -55,9 +55,9 @@ JunctionFiller::Meeting JunctionFiller::meeting(const PlacedClip& a, const Place
   return {a.core_end() + cut.retraction_frames - 1, begin};
 }
 
-/// Each clip keeps its quaternions' signs from frame to frame, so one sign a joint makes the whole of it go on from
-/// the side before. It is chosen where the two meet: in the middle of a cross-fade, so that there the shorter arc is
-/// taken. Choosing anew for each frame would make a joint jump where the sides pass half a turn apart.
+/// Quaternion signs are consistent within a clip, so one sign per joint makes the whole clip continuous with the
+/// previous side. It is chosen where the two meet: in the middle of a cross-fade, so that the shorter arc is taken
+/// there. A separate choice for each frame would make a joint jump if the sides pass half a turn apart.
 void JunctionFiller::turn_signs(const PlacedClip& a, const PlacedClip& b, const TransitionCuts& cuts,
                                 OutputWindow window, Motion& shared) const {
   const std::int64_t own_begin = b.begin() + shared.frame_count();
@@ -94,7 +94,7 @@ void JunctionFiller::crossfade(const PlacedClip& b, std::int64_t frames, OutputW
   }
 }
 
-/// Where one part still shows the side before and another already this one.
+/// Handles frames in which one part still shows the previous side and another already shows this one.
 void JunctionFiller::take_over(const PlacedClip& b, const TransitionCuts& cuts, OutputWindow window,
                                const Motion& shared) const {
   const JointGroups& groups = settings_.rig->groups;
@@ -114,8 +114,8 @@ void JunctionFiller::take_over(const PlacedClip& b, const TransitionCuts& cuts, 
   }
 }
 
-/// The context reaches into the strokes, where it is only looked at, and no farther: what follows a stroke need not be
-/// known yet.
+/// The context extends into the strokes, which are only read, but no farther: frames after a stroke may not be known
+/// yet.
 Gap JunctionFiller::gap_at(const PlacedClip& a, const PlacedClip& b, FrameRange frames, OutputWindow window) const {
   return {.skeleton = settings_.skeleton.get(),
           .groups = &settings_.rig->groups,
@@ -130,7 +130,7 @@ Gap JunctionFiller::gap_at(const PlacedClip& a, const PlacedClip& b, FrameRange 
 void JunctionFiller::fill_gap(const PlacedClip& a, const PlacedClip& b, FrameRange frames, GroupSet groups,
                               const TransitionCut& cut, OutputWindow window, GapScratch& scratch) const {
   static const GapMethod* const waiting =
-      find_gap_method("sine");  // from rest to rest, whatever noise the borders have
+      find_gap_method("sine");  // from rest to rest, independent of noise at the borders
   Gap gap = gap_at(a, b, frames, window);
   gap.pause = static_cast<double>(cut.pause_frames) * gap.rate.frame_time();
   const GapMethod& method = cut.waits ? *waiting : *method_of(settings_, b).fill;

@@ -8,38 +8,38 @@
 #include "signweave/score/motion_clip.h"
 #include "signweave/transition/body_guard.h"
 
-/// One junction at a time, from nothing but its two sides: a `Renderer` makes all those of a score with it, and
-/// `TransitionBuilder` one after another while an utterance grows. So both make the same of the same clips.
+/// Makes one junction at a time from its two sides alone. `Renderer` uses it for all junctions of a score, and
+/// `TransitionBuilder` for one after another while an utterance grows, so both give the same frames for the same clips.
 namespace signweave {
 
-/// What all junctions of a result have in common. Everything is borrowed.
+/// Settings common to all junctions of a result. Everything is borrowed.
 struct JunctionSettings {
   std::shared_ptr<const Skeleton> skeleton;
   FrameRate rate;
-  const TransitionMethod* method = nullptr;  ///< not null; of junctions that have none of their own
+  const TransitionMethod* method = nullptr;  ///< not null; for junctions without their own method
   const SignerRig* rig = nullptr;            ///< not null
   const TransitionModel* model = nullptr;    ///< null: the default
 };
 
-/// How the junction before a clip that is placed is made.
+/// The method of the junction before a placed clip.
 const TransitionMethod& method_of(const JunctionSettings& settings, const PlacedClip& placed) noexcept;
 
 struct JunctionCuts {
   TransitionCuts parts;
-  TransitionCut tracks;  ///< of the scalar tracks, which know no poses
+  TransitionCut tracks;  ///< of the scalar tracks, which do not depend on poses
 };
 
-/// Which joints' quaternions are turned to their negatives: [joint].
+/// The joints whose quaternions are negated, [joint].
 using JointSigns = std::vector<bool>;
 
-/// Memory that junctions use; kept from one to the next, so that only the first ones allocate.
+/// Memory of junctions, reused so that only the first ones allocate.
 struct JunctionScratch {
-  Motion left, right;  ///< what lies around the cuts
-  Motion shared;       ///< the frames of a clip that the one before has too
+  Motion left, right;  ///< frames around the cuts
+  Motion shared;       ///< the frames of a clip that overlap the previous clip
   GapScratch gap;
 };
 
-/// Output frames in memory, the first of them number `first`. Borrowed.
+/// Output frames in memory; the first has number `first`. Borrowed.
 struct OutputWindow {
   Motion& motion;
   std::int64_t first = 0;
@@ -50,27 +50,28 @@ struct OutputWindow {
   PosesView view(FrameRange range) const noexcept { return view_of(motion, {range.begin - first, range.end - first}); }
 };
 
-/// Makes the frames of junctions.
+/// Generates the frames of junctions.
 class JunctionFiller {
  public:
   explicit JunctionFiller(const JunctionSettings& settings);
 
-  /// Frames of b that a has too: of the whole body in a cross-fade, of one part here and another there where each has
-  /// its own cut.
+  /// Number of frames that b shares with a: for the whole body in a cross-fade, for different parts if each has its own
+  /// cut.
   static std::int64_t shared(const PlacedClip& a, const PlacedClip& b) noexcept;
-  /// As many frames beside a transition are looked at.
+  /// Number of frames read on either side of a transition.
   std::int64_t context() const noexcept;
-  /// The output frames at which a part of both sides is compared: b's rotations are turned so that they go on from a's.
+  /// The output frames at which a part is compared between both sides; b's quaternion signs are chosen to match a's
+  /// there.
   struct Meeting {
     std::int64_t of_a = 0;
     std::int64_t of_b = 0;
   };
   static Meeting meeting(const PlacedClip& a, const PlacedClip& b, const TransitionCuts& cuts, Timed part) noexcept;
 
-  /// The transition: Algorithm 1, lines 3 to 6. The window has what both sides keep of it already, and of both cores
-  /// `context()` frames or all; the frames that they share are there as a's, and in `scratch.shared` as b's.
-  /// Quaternions of b in the window may be turned to their negatives. Arms that were made are kept within what a body
-  /// can do (see BodyGuard), except where the method is offered for evaluation alone.
+  /// Makes the transition: Algorithm 1, lines 3 to 6. The window already contains the kept frames of both sides, and
+  /// `context()` frames (or all) of both cores; shared frames are a's there, and b's in `scratch.shared`. Quaternions
+  /// of b in the window may be negated. Generated arms are kept anatomically possible (see BodyGuard), unless the
+  /// method is offered for evaluation only.
   void fill(const PlacedClip& a, const PlacedClip& b, const TransitionCuts& cuts, OutputWindow window,
             JunctionScratch& scratch);
 

@@ -6,15 +6,15 @@
 namespace signweave {
 namespace {
 
-/// How many frames of the source are read at a time, at most and about, where they are interpolated.
+/// Approximate maximum number of source frames read at a time for interpolation.
 constexpr std::int64_t kChunk = 256;
 
-/// As many output frames are made of those.
+/// The number of output frames made from one such chunk.
 std::int64_t chunk_of(const PlacedClip& placed) noexcept {
   return std::clamp<std::int64_t>(static_cast<std::int64_t>(static_cast<double>(kChunk) / placed.step), 1, kChunk);
 }
 
-/// The frames of the source between which some output frames lie.
+/// The source frames needed to interpolate some output frames.
 FrameRange needed(const PlacedClip& placed, FrameRange output) {
   const auto first = static_cast<std::int64_t>(placed.frame_at(output.begin));
   const auto last = static_cast<std::int64_t>(std::ceil(placed.frame_at(output.end - 1)));
@@ -45,7 +45,7 @@ PlacedClip placed_by_step(const MotionClip& clip, double step) {
   const auto frames = [&](std::int64_t count) {
     return static_cast<std::int64_t>(std::min(static_cast<double>(count) / placed.step, 1e12) + 1e-9);
   };
-  // No more than can be added up; the whole is checked before anything is made.
+  // Limited so that sums do not overflow; the total is checked before anything is made.
   const double core = std::min(static_cast<double>(clip.core.size()) / placed.step, 1e12);
   placed.core_frames = std::max<std::int64_t>(1, std::llround(core));
   placed.preparation = frames(clip.core.begin - clip.whole.begin);

@@ -26,7 +26,7 @@ Channel channel_of(Timed part) noexcept {
   return Channel::body;
 }
 
-/// The cut of a lane, whose transition lies so many frames after the core's end as it keeps.
+/// Builds a lane; each transition begins after the kept retraction frames of its cut.
 Lane lane_of(const Plan& plan, Channel channel, const auto& cut_of_junction) {
   Lane lane{.channel = channel, .items = {}};
   std::int64_t begin = 0;
@@ -64,7 +64,7 @@ std::vector<std::size_t> places_of(const MotionClip& clip, std::size_t index) {
   return places;
 }
 
-/// Frames of the recording that its core shows: fewer than the clip has where it was left before its end.
+/// The recording frames that its core shows: fewer than the clip's core if it was left before its end.
 FrameRange core_of(const PlacedClip& placed) {
   const FrameRange core = placed.captured->core;
   if (placed.core_frames == placed_by_step(*placed.captured, placed.step).core_frames) return core;

@@ -21,7 +21,7 @@ const std::string& name_at_begin(const MotionClip& clip) {
   return clip.signs.empty() ? clip.recording : clip.signs.front().gloss;
 }
 
-/// Where each frame of a plan comes from.
+/// Fills in the source of each frame of a plan.
 void name_sources(const Plan& plan, std::vector<FrameSource>& sources) {
   sources.resize(static_cast<std::size_t>(plan.frames));
   const auto at = [&](std::int64_t frame) -> FrameSource& { return sources[static_cast<std::size_t>(frame)]; };
@@ -85,7 +85,7 @@ void place_junctions(const Score& score, const Plan& plan, Synthesis& out) {
   }
 }
 
-/// Copies some frames of what was made from frame `from` of the output on.
+/// Copies `frames` from `made`, which begins at output frame `from`.
 void copy(const Motion& made, std::int64_t from, FrameRange frames, Motion& out) {
   const FrameRange here{frames.begin - from, frames.end - from};
   out.reset(made.shared_skeleton(), made.rate(), frames.size());
@@ -100,25 +100,25 @@ void copy(const Motion& made, std::int64_t from, FrameRange frames, Motion& out)
 Renderer::Renderer(Plan plan, const JunctionSettings& settings)
     : plan_(std::move(plan)), settings_(settings), filler_(settings), tracks_(tracks_of(plan_.placed)) {}
 
-/// With the transitions that the frames touch as a whole, and beside those as much as they look at.
-Renderer::Part Renderer::part_with(FrameRange frames) const {
+/// Includes the complete transitions that the frames touch, and the context on both sides of those.
+Renderer::Section Renderer::section_with(FrameRange frames) const {
   const std::vector<PlacedClip>& placed = plan_.placed;
   const auto clip_at = [&](std::int64_t frame) {  // the last one whose core has begun, or the first
     const auto after = std::ranges::upper_bound(placed, frame, {}, &PlacedClip::core);
     return after == placed.begin() ? std::size_t{0} : static_cast<std::size_t>(after - placed.begin()) - 1;
   };
-  Part part{.first = clip_at(frames.begin), .last = clip_at(frames.end - 1), .frames = frames};
-  if (part.last + 1 < placed.size() && frames.end > placed[part.last].core_end()) ++part.last;
-  if (part.first == part.last) return part;
+  Section section{.first = clip_at(frames.begin), .last = clip_at(frames.end - 1), .frames = frames};
+  if (section.last + 1 < placed.size() && frames.end > placed[section.last].core_end()) ++section.last;
+  if (section.first == section.last) return section;
   const std::int64_t context = filler_.context();
-  const PlacedClip& first = placed[part.first];
-  const PlacedClip& last = placed[part.last];
-  part.frames.begin = std::min(frames.begin, std::max(first.core, first.core_end() - context));
-  part.frames.end = std::max(frames.end, std::min(last.core + context, last.core_end()));
-  return part;
+  const PlacedClip& first = placed[section.first];
+  const PlacedClip& last = placed[section.last];
+  section.frames.begin = std::min(frames.begin, std::max(first.core, first.core_end() - context));
+  section.frames.end = std::max(frames.end, std::min(last.core + context, last.core_end()));
+  return section;
 }
 
-/// As turning each clip so that it goes on from the one before it leaves the joints of a clip.
+/// The joints of a clip that are negated when each clip is made continuous with the previous one.
 const JointSigns& Renderer::turned_in(std::size_t clip) {
   const std::size_t joints = settings_.skeleton->joint_count();
   if (turned_.empty()) turned_.emplace_back(joints, false);
@@ -159,26 +159,26 @@ void Renderer::render(FrameRange frames, Motion& out) {
     for (const std::string& name : tracks_) out.add_track({name, {}});
     return;
   }
-  const Part part = part_with(frames);
-  Motion& made = part.frames == frames ? out : window_;
-  made.reset(settings_.skeleton, settings_.rate, part.frames.size());
-  const OutputWindow window{made, part.frames.begin};
-  signweave::fetch(std::span(plan_.placed).subspan(part.first, part.last - part.first + 1), window);
-  join_part(part, window, std::move(used));
+  const Section section = section_with(frames);
+  Motion& made = section.frames == frames ? out : window_;
+  made.reset(settings_.skeleton, settings_.rate, section.frames.size());
+  const OutputWindow window{made, section.frames.begin};
+  signweave::fetch(std::span(plan_.placed).subspan(section.first, section.last - section.first + 1), window);
+  join_section(section, window, std::move(used));
   if (&made == &out) return;
-  copy(made, part.frames.begin, frames, out);
+  copy(made, section.frames.begin, frames, out);
   window_.take_tracks();
 }
 
 void Renderer::render_fetched(Motion& out, std::vector<ScalarTrack> used) {
-  join_part({.first = 0, .last = plan_.placed.size() - 1, .frames = {0, plan_.frames}}, {out}, std::move(used));
+  join_section({.first = 0, .last = plan_.placed.size() - 1, .frames = {0, plan_.frames}}, {out}, std::move(used));
 }
 
-void Renderer::join_part(const Part& part, OutputWindow window, std::vector<ScalarTrack> used) {
-  const std::span clips = std::span(plan_.placed).subspan(part.first, part.last - part.first + 1);
-  const std::span cuts = std::span(plan_.cuts).subspan(part.first, part.last - part.first);
-  join({.clips = clips, .cuts = cuts, .turned = part.first == 0 ? nullptr : &turned_in(part.first)}, filler_, window,
-       scratch_);
+void Renderer::join_section(const Section& section, OutputWindow window, std::vector<ScalarTrack> used) {
+  const std::span clips = std::span(plan_.placed).subspan(section.first, section.last - section.first + 1);
+  const std::span cuts = std::span(plan_.cuts).subspan(section.first, section.last - section.first);
+  join({.clips = clips, .cuts = cuts, .turned = section.first == 0 ? nullptr : &turned_in(section.first)}, filler_,
+       window, scratch_);
   if (tracks_.empty()) return;
   std::vector<PlacedClip> placed(clips.begin(), clips.end());
   for (std::size_t i = 0; i < cuts.size(); ++i) {
@@ -187,7 +187,7 @@ void Renderer::join_part(const Part& part, OutputWindow window, std::vector<Scal
   }
   used.resize(tracks_.size());
   for (std::size_t i = 0; i < tracks_.size(); ++i) used[i].name = tracks_[i];
-  carry_tracks(placed, part.frames, used);
+  carry_tracks(placed, section.frames, used);
   for (ScalarTrack& track : used) window.motion.add_track(std::move(track));
 }
 

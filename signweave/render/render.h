@@ -10,53 +10,53 @@
 
 namespace signweave {
 
-/// Renders a plan: any frames of it, in any order, any number of times, always with the same bits; of clips whose
-/// motion is put onto another skeleton up to the signs of quaternions. Belongs to one thread.
+/// Renders a plan: any frames, in any order, any number of times, always with the same bits (for clips retargeted to
+/// another skeleton, up to the signs of quaternions). Used by one thread.
 class Renderer {
  public:
-  /// What the settings and the plan's clips point to must outlive it.
+  /// Everything that the settings and the plan's clips point to must outlive it.
   Renderer(Plan plan, const JunctionSettings& settings);
 
   const Plan& plan() const noexcept { return plan_; }
 
-  /// Makes the frames `frames`, which must lie in the plan, with their tracks; `out` then has these alone. Costs what
-  /// they cost, and a transition of which any frame is asked for its whole: nothing more in a long score but, once, a
-  /// few frames of every junction before them. Throws Error{corrupt}, Error{bad_input} for frames that are not in the
+  /// Renders the frames `frames`, which must lie in the plan, with their tracks; `out` then contains only these. The
+  /// cost is that of these frames, with every touched transition made completely; in a long score, additionally, a few
+  /// frames of every earlier junction are read once. Throws Error{corrupt}, Error{bad_input} for frames outside the
   /// plan.
   void render(FrameRange frames, Motion& out);
-  /// The same of all frames, where `fetch` put those that were captured into `out` and gave back `used`.
+  /// Renders all frames, after `fetch` has put the captured ones into `out` and returned `used`.
   void render_fetched(Motion& out, std::vector<ScalarTrack> used);
 
  private:
-  /// Clips of the plan that make some frames, and the frames that they are made with.
-  struct Part {
+  /// The clips that contribute to some frames, and the frames needed to make them.
+  struct Section {
     std::size_t first = 0;
     std::size_t last = 0;  ///< inclusive
     FrameRange frames;
   };
-  Part part_with(FrameRange frames) const;
+  Section section_with(FrameRange frames) const;
   const JointSigns& turned_in(std::size_t clip);
-  void join_part(const Part& part, OutputWindow window, std::vector<ScalarTrack> used);
+  void join_section(const Section& section, OutputWindow window, std::vector<ScalarTrack> used);
 
   Plan plan_;
   JunctionSettings settings_;
   JunctionFiller filler_;
-  std::vector<std::string> tracks_;  ///< names: those that any of its clips has
-  std::vector<JointSigns> turned_;   ///< [clip] as far as it was asked for
+  std::vector<std::string> tracks_;  ///< names of the tracks of all clips
+  std::vector<JointSigns> turned_;   ///< [clip] as far as computed
   JunctionScratch scratch_;
   Motion window_;
 };
 
-/// Puts the captured frames of a plan's clips where they lie, as they were captured, into `out`, which becomes as
-/// long as the plan says. Returns the tracks that it had, for their memory. Throws Error{corrupt}.
+/// Reads the captured frames of a plan's clips, unchanged, to their positions in `out`, which is resized to the plan's
+/// length. Returns the previous tracks of `out`, so that their memory can be reused. Throws Error{corrupt}.
 std::vector<ScalarTrack> fetch(const Plan& plan, const JunctionSettings& settings, Motion& out);
 
-/// Makes what a score says of its clips, which clips_of or the score's maker has: all of `out` but its
-/// notices and declarations. Decides nothing. The memory of what `out` was is used again. Throws Error{bad_input} as
-/// plan_of, Error{corrupt}.
+/// Renders a score from its clips, which come from clips_of or the score's creator. Fills all of `out` except notices
+/// and declarations. Makes no choices. The memory of `out` is reused. Throws Error{bad_input} as plan_of,
+/// Error{corrupt}.
 void render(Score score, const std::vector<MotionClip>& clips, const JunctionSettings& settings, Synthesis& out);
-/// The same by the renderer of the score's plan; `fetched`: what `fetch` gave back, where it has put the captured
-/// frames into `out` already.
+/// The same with the renderer of the score's plan. `fetched` is the result of `fetch` if it has already read the
+/// captured frames into `out`.
 void render(Score score, Renderer& renderer, const std::vector<MotionClip>& clips,
             std::optional<std::vector<ScalarTrack>> fetched, Synthesis& out);
 

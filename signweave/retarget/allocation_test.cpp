@@ -1,4 +1,4 @@
-// A pose is put onto another body without allocating: streams do it frame by frame.
+// Retargeting a pose allocates nothing, because streams do it frame by frame.
 
 #include <gtest/gtest.h>
 
@@ -12,7 +12,7 @@
 namespace signweave {
 namespace {
 
-TEST(RetargetAllocations, NoneAreMadeForAPose) {
+TEST(RetargetAllocations, NoneForAPose) {
   const Motion motion = moving(whole_person(), 20);
   const Character character = character_of(whole_person(0.9f));
   Retargeter retargeter(motion.skeleton(), plain_model_of(motion), character);
@@ -25,7 +25,7 @@ TEST(RetargetAllocations, NoneAreMadeForAPose) {
             0U);
 }
 
-TEST(RetargetAllocations, NoneAreMadeForFramesOfAnotherSkeleton) {
+TEST(RetargetAllocations, NoneForFramesOfAnotherSkeleton) {
   const auto motion = std::make_shared<MemorySource>(moving(whole_person(), 100));
   const MemorySource onto(moving(whole_person(0.9f), 100, 2));
   const RetargetedSource shown(

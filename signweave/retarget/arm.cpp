@@ -14,15 +14,16 @@ using Eigen::AngleAxisf;
 using Eigen::Quaternionf;
 using Eigen::Vector3f;
 
-/// Of the hand's turn about the forearm, what the forearm's first and last joint take; what lies between is spread.
+/// The fraction of the hand's twist about the forearm that the forearm's first and last joint take; joints between are
+/// interpolated.
 constexpr float kTwistAtElbow = 0.2f;
 constexpr float kTwistAtWrist = 0.75f;
-/// Of the arm's turn about itself, what the first of several joints takes; the last takes all.
+/// The fraction of the arm's twist that the first of several joints takes; the last takes all.
 constexpr float kTwistAtShoulder = 0.4f;
-/// An elbow bent less than the first angle does not show its plane; above the second it does.
+/// Below the first angle a bent elbow does not determine its plane; above the second it does.
 constexpr float kPlaneFrom = 8 * std::numbers::pi_v<float> / 180;
 constexpr float kPlaneTo = 30 * std::numbers::pi_v<float> / 180;
-/// No arm is quite straight: past this share of its length a bend would jump.
+/// No arm is completely straight: beyond this fraction of its length the bend would jump.
 constexpr float kReach = 0.9998f;
 
 float share_of(std::size_t i, std::size_t count, float first, float last) {
@@ -85,7 +86,7 @@ std::optional<CharacterArm> CharacterArm::make(const Character& character, const
   return arm;
 }
 
-void CharacterArm::place(const Skeleton& skeleton, ModelPose& pose) const {
+void CharacterArm::update_positions(const Skeleton& skeleton, ModelPose& pose) const {
   const auto put = [&](JointIndex joint) {
     const Joint& own = skeleton.joint(joint);
     pose.positions[at(joint)] = pose.positions[at(own.parent)] + pose.rotations[at(own.parent)] * own.offset;
@@ -95,36 +96,38 @@ void CharacterArm::place(const Skeleton& skeleton, ModelPose& pose) const {
   put(wrist_);
 }
 
-void CharacterArm::lay(const Skeleton& skeleton, const std::optional<Vector3f>& goal, Twist twist,
-                       ModelPose& pose) const {
-  const Quaternionf told_upper = pose.rotations[at(upper_.back())];
-  const Quaternionf told_lower = pose.rotations[at(lower_.front())];
-  const TwoBones told = {told_upper * upper_axis_, told_lower * lower_axis_};
+void CharacterArm::solve(const Skeleton& skeleton, const std::optional<Vector3f>& goal, Twist twist,
+                         ModelPose& pose) const {
+  const Quaternionf source_upper = pose.rotations[at(upper_.back())];
+  const Quaternionf source_lower = pose.rotations[at(lower_.front())];
+  const TwoBones source = {source_upper * upper_axis_, source_lower * lower_axis_};
   const Quaternionf above = parent_ == kNoJoint ? Quaternionf::Identity() : pose.rotations[at(parent_)];
   const Quaternionf hand = pose.rotations[at(wrist_)];
-  // Kept, so that each round begins with what the source told.
-  std::array<Quaternionf, 8> upper_told;
-  std::array<Quaternionf, 8> lower_told;
+  // Saved, so that each round starts from the source's rotations.
+  std::array<Quaternionf, 8> upper_source;
+  std::array<Quaternionf, 8> lower_source;
   for (std::size_t i = 0; i < std::min<std::size_t>(upper_.size(), 8); ++i)
-    upper_told[i] = pose.rotations[at(upper_[i])];
+    upper_source[i] = pose.rotations[at(upper_[i])];
   for (std::size_t i = 0; i < std::min<std::size_t>(lower_.size(), 8); ++i)
-    lower_told[i] = pose.rotations[at(lower_[i])];
+    lower_source[i] = pose.rotations[at(lower_[i])];
 
-  // Bones of several joints are not quite straight, so that twist moves their end: what is left over is aimed for, too.
-  Vector3f aim = upper_length_ * told.upper + lower_length_ * told.lower;
+  // Bones with several joints are not completely straight, so twist moves their end: the remaining error is added to
+  // the goal.
+  Vector3f aim = upper_length_ * source.upper + lower_length_ * source.lower;
   const int rounds = goal ? 4 : 1;
   for (int round = 0; round < rounds; ++round) {
-    const TwoBones bones = round > 0 ? reach(told, upper_length_, lower_length_, aim, told_upper * upper_bend_) : told;
-    const Quaternionf turned = turn_between(told.upper, bones.upper);
-    const Quaternionf bent = turn_between(turned * told.lower, bones.lower) * turned;
+    const TwoBones bones =
+        round > 0 ? reach(source, upper_length_, lower_length_, aim, source_upper * upper_bend_) : source;
+    const Quaternionf turned = turn_between(source.upper, bones.upper);
+    const Quaternionf bent = turn_between(turned * source.lower, bones.lower) * turned;
     if (twist.upper) {
       for (std::size_t i = 0; i < upper_.size(); ++i)
-        pose.rotations[at(upper_[i])] = turned * upper_told[std::min<std::size_t>(i, 7)];
+        pose.rotations[at(upper_[i])] = turned * upper_source[std::min<std::size_t>(i, 7)];
     } else {
-      // The elbow is a hinge: where it is bent, its plane tells how the upper arm is turned about itself.
+      // The elbow is a hinge: if it is bent, its plane determines the twist of the upper arm.
       const float weight = smooth_step(angle(bones.upper, bones.lower), kPlaneFrom, kPlaneTo);
       const Vector3f shown = across(bones.lower, bones.upper);
-      const Vector3f kept = across(turned * (told_upper * upper_bend_), bones.upper).normalized();
+      const Vector3f kept = across(turned * (source_upper * upper_bend_), bones.upper).normalized();
       Vector3f side = (1 - weight) * kept;
       if (shown.norm() > 1e-6f) side += weight * shown.normalized();
       const Quaternionf whole = axes_along(bones.upper, side) * axes_along(upper_axis_, upper_bend_).conjugate();
@@ -137,9 +140,9 @@ void CharacterArm::lay(const Skeleton& skeleton, const std::optional<Vector3f>& 
     }
     if (twist.lower) {
       for (std::size_t i = 0; i < lower_.size(); ++i)
-        pose.rotations[at(lower_[i])] = bent * lower_told[std::min<std::size_t>(i, 7)];
+        pose.rotations[at(lower_[i])] = bent * lower_source[std::min<std::size_t>(i, 7)];
     } else {
-      // The forearm as the hinge alone would have it, then its share of the hand's turn.
+      // The forearm as rotated by the hinge alone, then its share of the hand's twist.
       const Quaternionf upper = pose.rotations[at(upper_.back())];
       const Quaternionf hinged = turn_between(upper * lower_axis_, bones.lower) * upper;
       const float about = twist_about(hinged.conjugate() * hand, lower_axis_);
@@ -148,7 +151,7 @@ void CharacterArm::lay(const Skeleton& skeleton, const std::optional<Vector3f>& 
         pose.rotations[at(lower_[i])] = hinged * Quaternionf(AngleAxisf(share * about, lower_axis_));
       }
     }
-    place(skeleton, pose);
+    update_positions(skeleton, pose);
     if (goal) aim += *goal - pose.positions[at(wrist_)];
   }
 }

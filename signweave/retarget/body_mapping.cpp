@@ -18,9 +18,10 @@ namespace {
 using Eigen::Quaternionf;
 using Eigen::Vector3f;
 
-/// So many joints are named in one line.
+/// Maximum number of joints named in one line.
 constexpr std::size_t kNamedJoints = 6;
-/// An arm that is bent so much reaches its place on any body: the wrist's way from the shoulder, of the arm's length.
+/// An arm bent this much reaches its position on any body: distance from shoulder to wrist, as a fraction of the arm's
+/// length.
 constexpr float kBentArm = 0.79f;
 
 JointIndex pelvis_of(const RigMap& rig) {
@@ -30,14 +31,14 @@ JointIndex pelvis_of(const RigMap& rig) {
   return 0;
 }
 
-/// The lowest joint that moves, of those from the root to the pelvis; the root where none does.
+/// Returns the lowest translated joint from the root to the pelvis; the root if there is none.
 JointIndex carrier_of(const Skeleton& skeleton, const RigMap& rig) {
   JointIndex joint = pelvis_of(rig);
   while (joint > 0 && !skeleton.joint(joint).translated) joint = skeleton.joint(joint).parent;
   return joint;
 }
 
-/// The value below which so much of them lies; 0 of nothing.
+/// Returns the value below which a fraction `share` of the values lies; 0 if empty.
 float quantile_of(std::vector<float> values, double share) {
   if (values.empty()) return 0;
   const auto which = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
@@ -45,7 +46,7 @@ float quantile_of(std::vector<float> values, double share) {
   return *which;
 }
 
-/// By what heights of two bodies are compared: the lowest ankle, else the hips, else the shoulders.
+/// The landmark by which the heights of two bodies are compared: the lowest ankle, else the hips, else the shoulders.
 enum class Landmark { ankles, hips, shoulders };
 
 Landmark landmark_of(const RigMap& a, const RigMap& b) {
@@ -68,10 +69,10 @@ float height_in(const ModelPose& pose, const RigMap& rig, Landmark which) {
   return 0.5f * (y(Part::left_upper_arm) + y(Part::right_upper_arm));
 }
 
-/// How a signer stands over some frames: where the shoulders' middle is, and where it looks.
+/// The usual position of a signer over some frames: the midpoint of the shoulders and the heading.
 struct Stance {
   Standing standing;
-  float height = 0;  ///< of a landmark: the median
+  float height = 0;  ///< median height of the landmark
 };
 
 Stance stance_of(const Motion& motion, const SignerModel& signer, Landmark which) {
@@ -96,9 +97,11 @@ Stance stance_of(const Motion& motion, const SignerModel& signer, Landmark which
           .height = quantile_of(heights, 0.5)};
 }
 
-/// How far hands are from their places, in shoulder widths as the target's arms reach: of bent arms, which reach them.
-std::vector<float> astray(const RecordedBody& source, const Motion& shown, const RecordedBody& target, float ratio) {
-  std::vector<float> ways;
+/// Returns the distances of hands from their intended positions, in shoulder widths scaled by the target's reach: only
+/// for bent arms, which can reach them.
+std::vector<float> hand_distances(const RecordedBody& source, const Motion& shown, const RecordedBody& target,
+                                  float ratio) {
+  std::vector<float> distances;
   const RigMap& from = source.signer.rig;
   const RigMap& to = target.signer.rig;
   ModelPose there;
@@ -121,11 +124,11 @@ std::vector<float> astray(const RecordedBody& source, const Motion& shown, const
       HandPoints b;
       HandPlaces(from, side).read(there, a);
       HandPlaces(to, side).read(here, b);
-      const float way = (from_space.to_signer(palm_of(a)) - to_space.to_signer(palm_of(b))).norm();
-      if (std::isfinite(way)) ways.push_back(way);
+      const float distance = (from_space.to_signer(palm_of(a)) - to_space.to_signer(palm_of(b))).norm();
+      if (std::isfinite(distance)) distances.push_back(distance);
     }
   }
-  return ways;
+  return distances;
 }
 
 std::string joints_at_rest(const Skeleton& skeleton, const Drives& drives) {
@@ -142,7 +145,7 @@ std::string joints_at_rest(const Skeleton& skeleton, const Drives& drives) {
 void refuse_unsafe(const RecordedBody& source, const RecordedBody& target, const BodyMatch& match) {
   if (match.unsafe.empty()) return;
   throw Error(ErrorCode::bad_input,
-              fmt::format("recording '{}' cannot be put onto the skeleton of '{}': {}; import them with a "
+              fmt::format("recording '{}' cannot be retargeted to the skeleton of '{}': {}; import them with a "
                           "mapping file that names such joints, or sign with recordings of one skeleton",
                           source.recording, target.recording, fmt::join(match.unsafe, "; ")),
               {{"rig", ""}});
@@ -165,7 +168,7 @@ BodyMapping map_body(const RecordedBody& source, const RecordedBody& target) {
   mapping.skeleton = target.frames.shared_skeleton();
   mapping.carrier = carrier_of(*mapping.skeleton, target.signer.rig);
 
-  // The frames that were looked at, on the other body: they tell how high it is to stand, and how near its hands come.
+  // The examined frames, on the other body: they determine how high it stands, and how close its hands come.
   BodyMapper mapper(mapping);
   Motion shown(mapping.skeleton, source.frames.rate(), source.frames.frame_count());
   for (std::int64_t frame = 0; frame < shown.frame_count(); ++frame) {
@@ -179,14 +182,15 @@ BodyMapping map_body(const RecordedBody& source, const RecordedBody& target) {
 
   const Drives& drives = mapper.retargeter().drives();
   const auto driven = std::ranges::count_if(drives.joints, [](const Drive& drive) { return drive.driven(); });
-  std::string line = fmt::format("put onto the skeleton of '{}', whose joints are others: {} of {} follow",
+  std::string line = fmt::format("retargeted to the skeleton of '{}', which has other joints: {} of {} driven",
                                  target.recording, driven, drives.joints.size());
   if (const std::string rest = joints_at_rest(*mapping.skeleton, drives); !rest.empty()) {
-    line += fmt::format(", still are {}", rest);
+    line += fmt::format(", at rest: {}", rest);
   }
-  if (const std::vector<float> ways = astray(source, shown, target, mapper.retargeter().unit_ratio()); !ways.empty()) {
-    line += fmt::format("; hands within {:.3f} shoulder widths of their places (95 %: {:.3f})", quantile_of(ways, 0.5),
-                        quantile_of(ways, 0.95));
+  if (const std::vector<float> distances = hand_distances(source, shown, target, mapper.retargeter().unit_ratio());
+      !distances.empty()) {
+    line += fmt::format("; hands within {:.3f} shoulder widths of their positions (95 %: {:.3f})",
+                        quantile_of(distances, 0.5), quantile_of(distances, 0.95));
   }
   mapping.notices.push_back({source.recording, line});
   for (const std::string& text : match.approximate) {
@@ -223,7 +227,7 @@ void BodyMapper::pose(PoseView source, MutablePoseView out) noexcept {
     if (root_translation_) out.translations[*root_translation_] = place;
     return;
   }
-  // What the retargeter gave to the root, the carrier has; all above it stands as it mostly does.
+  // The carrier takes the retargeter's root motion; all joints above it keep the usual pose.
   const Skeleton& bones = *mapping_.character.skeleton;
   Quaternionf turn = root;
   Vector3f end = place;

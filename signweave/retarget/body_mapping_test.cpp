@@ -29,10 +29,10 @@ RecordedBody body_in(const std::string& name, const Motion& motion, const RigNam
   return recorded_body(name, MemorySource(motion), rig);
 }
 
-Motion somebody(unsigned seed = 1) {
+Motion first_signer(unsigned seed = 1) {
   return moving(whole_person(), 60, seed);
 }
-Motion somebody_else(unsigned seed = 1) {
+Motion other_signer(unsigned seed = 1) {
   return on_other_rig(moving(whole_person(), 60, seed));
 }
 
@@ -70,26 +70,26 @@ std::vector<std::string> first_joints(const std::string& hand, std::initializer_
   return names;
 }
 
-RC_GTEST_PROP(BodyMapping, OntoItsOwnBodyEveryJointStaysWhereItIs, ()) {
-  const Motion motion = somebody(*rc::gen::inRange(1u, 1000u));
+RC_GTEST_PROP(BodyMapping, OnItsOwnBodyEveryJointKeepsItsPosition, ()) {
+  const Motion motion = first_signer(*rc::gen::inRange(1u, 1000u));
   const Motion same = all_of(*shown(motion, motion));
   for (std::int64_t frame = 0; frame < motion.frame_count(); ++frame) {
     const ModelPose a = to_model_space(motion.skeleton(), motion.pose(frame));
     const ModelPose b = to_model_space(same.skeleton(), same.pose(frame));
     for (std::size_t joint = 0; joint < a.positions.size(); ++joint) {
-      // No arm is quite straight: the elbow of one that was lies a little beside, by 15.6 mm in the worst of all seeds;
-      // of all others 0.11 mm.
+      // No arm is completely straight: the elbow of one that was is off by 15.6 mm in the worst of all seeds; of all
+      // others by 0.11 mm.
       const bool elbow = motion.skeleton().joints()[joint].name.ends_with("ForeArm");
       RC_ASSERT((a.positions[joint] - b.positions[joint]).norm() < (elbow ? 0.018f : 0.0005f));
     }
   }
 }
 
-RC_GTEST_PROP(BodyMapping, HandsPointAsTheyDidAndFingersBendAsTheyDid, ()) {
+RC_GTEST_PROP(BodyMapping, HandDirectionsAndFingerFlexionAreKept, ()) {
   const unsigned seed = *rc::gen::inRange(1u, 1000u);
   const bool back = *rc::gen::arbitrary<bool>();
-  const Motion motion = back ? somebody_else(seed) : somebody(seed);
-  const Motion onto = back ? somebody(seed + 1) : somebody_else(seed + 1);
+  const Motion motion = back ? other_signer(seed) : first_signer(seed);
+  const Motion onto = back ? first_signer(seed + 1) : other_signer(seed + 1);
   const Motion made = all_of(*shown(motion, onto));
   const RigMap from = map_rig(motion);
   const RigMap to = map_rig(onto);
@@ -109,8 +109,8 @@ RC_GTEST_PROP(BodyMapping, HandsPointAsTheyDidAndFingersBendAsTheyDid, ()) {
   }
 }
 
-RC_GTEST_PROP(BodyMapping, AFrameComesOutTheSameWhicheverAreReadWithIt, ()) {
-  static const auto source = shown(somebody_else(), somebody(2));
+RC_GTEST_PROP(BodyMapping, AFrameIsTheSameWhicheverFramesAreReadWithIt, ()) {
+  static const auto source = shown(other_signer(), first_signer(2));
   static const Motion whole = all_of(*source);
   const std::int64_t begin = *rc::gen::inRange<std::int64_t>(0, whole.frame_count());
   const std::int64_t end = *rc::gen::inRange<std::int64_t>(begin, whole.frame_count()) + 1;
@@ -128,29 +128,29 @@ RC_GTEST_PROP(BodyMapping, AFrameComesOutTheSameWhicheverAreReadWithIt, ()) {
   RC_ASSERT(keeps_hemisphere(part));
 }
 
-TEST(BodyMapping, BonesKeepTheLengthsThatTheSignerMostlyHas) {
-  Motion onto = somebody(2);  // whose shoulders may move by translation
+TEST(BodyMapping, BonesKeepTheSignersUsualLengths) {
+  Motion onto = first_signer(2);  // its shoulders may be translated
   const std::size_t shoulder = *onto.skeleton().translation_of(*onto.skeleton().find("LeftArm"));
   for (std::int64_t frame = 0; frame < onto.frame_count(); ++frame) {
     onto.pose(frame).translations[shoulder] = {0.14f, 0.01f, frame < 9 ? 0.5f : 0.02f};
   }
-  const Motion made = all_of(*shown(somebody_else(), onto));
+  const Motion made = all_of(*shown(other_signer(), onto));
   for (std::int64_t frame = 0; frame < made.frame_count(); ++frame) {
     EXPECT_EQ(std::as_const(made).pose(frame).translations[shoulder], Vector3f(0.14f, 0.01f, 0.02f));
   }
 }
 
-TEST(BodyMapping, TheSignerStandsOnTheFloorThatIsThere) {
-  Motion above = somebody_else();
+TEST(BodyMapping, TheSignerStandsOnTheTargetsFloor) {
+  Motion above = other_signer();
   for (std::int64_t frame = 0; frame < above.frame_count(); ++frame) above.pose(frame).translations[0].y() += 3;
-  const Motion onto = somebody(2);
+  const Motion onto = first_signer(2);
   const Motion made = all_of(*shown(above, onto));
   EXPECT_NEAR(usual_pose(made).translations[0].y(), usual_pose(onto).translations[0].y(), 0.02f);
 }
 
-TEST(BodyMapping, AStillRootStaysStillAndWhatHangsOnItMoves) {
-  const Motion onto = below_a_still_root(placed(somebody(2), 1.0f, {3, 0, 1}));
-  const Motion made = all_of(*shown(somebody_else(), onto));
+TEST(BodyMapping, AMotionlessRootStaysStillAndItsDescendantsMove) {
+  const Motion onto = below_a_still_root(placed(first_signer(2), 1.0f, {3, 0, 1}));
+  const Motion made = all_of(*shown(other_signer(), onto));
   ASSERT_EQ(made.skeleton(), onto.skeleton());
   const SignerModel signer = body_in("a", onto).signer;
   const SignerSpace there = signer_space(*signer.body, signer.rig, to_model_space(onto.skeleton(), onto.pose(0)));
@@ -164,51 +164,52 @@ TEST(BodyMapping, AStillRootStaysStillAndWhatHangsOnItMoves) {
   }
 }
 
-TEST(BodyMapping, NumbersThatAreNoneGiveTheUsualPose) {
-  Motion broken = somebody_else();
+TEST(BodyMapping, NonFiniteValuesGiveTheUsualPose) {
+  Motion broken = other_signer();
   broken.pose(10).rotations[3].x() = std::numeric_limits<float>::quiet_NaN();
-  const Motion made = all_of(*shown(broken, somebody(2)));
+  const Motion made = all_of(*shown(broken, first_signer(2)));
   for (const Quaternionf& turn : made.rotations()) ASSERT_NEAR(turn.norm(), 1, 1e-4f);
   for (const Vector3f& place : made.translations()) ASSERT_TRUE(place.allFinite());
-  const Pose usual = usual_pose(somebody(2));
+  const Pose usual = usual_pose(first_signer(2));
   EXPECT_LT(made.pose(10).rotations[5].angularDistance(usual.rotations[5]), 0.1f);
 }
 
-TEST(BodyMapping, TheNoticeTellsWhatFollows) {
-  const BodyMapping mapping = map_body(body_in("b", somebody_else()), body_in("a", somebody(2)));
+TEST(BodyMapping, TheNoticeCountsDrivenJoints) {
+  const BodyMapping mapping = map_body(body_in("b", other_signer()), body_in("a", first_signer(2)));
   ASSERT_EQ(mapping.notices.size(), 1u);
   EXPECT_EQ(mapping.notices[0].where, "b");
   EXPECT_THAT(mapping.notices[0].text,
-              HasSubstr("put onto the skeleton of 'a', whose joints are others: 45 of 47 follow, still are "));
+              HasSubstr("retargeted to the skeleton of 'a', which has other joints: 45 of 47 driven, at rest: "));
 }
 
-TEST(BodyMatch, AnArmThatOneLacksIsRefusedByName) {
-  const Motion one_armed = without_joints(somebody(), {"LeftForeArm"});
-  EXPECT_EQ(refusal(one_armed, somebody_else()),
-            "recording 'b' cannot be put onto the skeleton of 'a': 'b' has no left_forearm, left_hand; name such "
-            "joints in a mapping file (signweave import --rig FILE), or sign with recordings of one skeleton");
-  EXPECT_THAT(refusal(somebody_else(), one_armed), HasSubstr("': 'a' has no left_forearm, left_hand; name"));
-  EXPECT_THAT(approximations(one_armed, without_joints(somebody_else(), {"mixamorig:LeftForeArm"})),
+TEST(BodyMatch, AnArmMissingFromOneBodyIsRefusedByName) {
+  const Motion one_armed = without_joints(first_signer(), {"LeftForeArm"});
+  EXPECT_EQ(refusal(one_armed, other_signer()),
+            "recording 'b' cannot be retargeted to the skeleton of 'a': 'b' has no left_forearm, left_hand; import "
+            "them with a mapping file that names "
+            "such joints, or sign with recordings of one skeleton");
+  EXPECT_THAT(refusal(other_signer(), one_armed), HasSubstr("': 'a' has no left_forearm, left_hand; import"));
+  EXPECT_THAT(approximations(one_armed, without_joints(other_signer(), {"mixamorig:LeftForeArm"})),
               ElementsAre("neither has a left arm"));
-  EXPECT_THAT(refusal(without_joints(somebody(), {"LeftArm"}), somebody_else()),
+  EXPECT_THAT(refusal(without_joints(first_signer(), {"LeftArm"}), other_signer()),
               HasSubstr("'b' has no left_upper_arm; 'b' has no left_forearm, left_hand"));
 }
 
-TEST(BodyMatch, AHandWithSomeFingersIsRefusedByTheirNames) {
-  const Motion three = without_joints(somebody(), first_joints("LeftHand", {"Ring", "Pinky"}));
-  EXPECT_THAT(refusal(three, somebody_else()), HasSubstr("'b' has no left_ring_proximal, left_little_proximal; name"));
-  EXPECT_THAT(approximations(somebody_else(), three),
-              ElementsAre("'a' has no left_ring_proximal, left_little_proximal: what they do is lost"));
+TEST(BodyMatch, AHandWithSomeFingersIsRefusedNamingTheMissingOnes) {
+  const Motion three = without_joints(first_signer(), first_joints("LeftHand", {"Ring", "Pinky"}));
+  EXPECT_THAT(refusal(three, other_signer()), HasSubstr("'b' has no left_ring_proximal, left_little_proximal; import"));
+  EXPECT_THAT(approximations(other_signer(), three),
+              ElementsAre("'a' has no left_ring_proximal, left_little_proximal: their movement is lost"));
 }
 
-TEST(BodyMatch, AHandWithoutFingersKeepsStillAndThatIsTold) {
+TEST(BodyMatch, AHandWithoutFingersStaysStillAndIsReported) {
   const Motion none =
-      without_joints(somebody(), first_joints("LeftHand", {"Thumb", "Index", "Middle", "Ring", "Pinky"}));
-  EXPECT_THAT(approximations(none, somebody_else()),
-              ElementsAre("its left hand has no fingers: they keep still, whatever the handshape was"));
-  EXPECT_THAT(approximations(somebody_else(), none),
-              ElementsAre("'a' has no fingers of the left hand: its handshapes are lost"));
-  const Motion onto = somebody_else(2);
+      without_joints(first_signer(), first_joints("LeftHand", {"Thumb", "Index", "Middle", "Ring", "Pinky"}));
+  EXPECT_THAT(approximations(none, other_signer()),
+              ElementsAre("its left hand has no fingers: the target's fingers stay still"));
+  EXPECT_THAT(approximations(other_signer(), none),
+              ElementsAre("'a' has no fingers on the left hand: handshapes are lost"));
+  const Motion onto = other_signer(2);
   const Motion made = all_of(*shown(none, onto));
   const auto thumb = static_cast<std::size_t>(*made.skeleton().find("mixamorig:LeftHandThumb2"));
   const Quaternionf usual = usual_pose(onto).rotations[thumb];
@@ -217,31 +218,31 @@ TEST(BodyMatch, AHandWithoutFingersKeepsStillAndThatIsTold) {
   }
 }
 
-TEST(BodyMatch, FingersOfFewerJointsAndHeadsAreTold) {
-  EXPECT_THAT(approximations(without_joints(somebody(), {"RightHandIndex3"}), somebody_else()),
-              ElementsAre("it has no right_index_distal: they keep still"));
-  EXPECT_THAT(approximations(without_joints(somebody(), {"LeftEye"}), somebody_else()),
-              ElementsAre("it has no left_eye: they do not move of themselves"));
+TEST(BodyMatch, FingersWithFewerJointsAndMissingEyesAreReported) {
+  EXPECT_THAT(approximations(without_joints(first_signer(), {"RightHandIndex3"}), other_signer()),
+              ElementsAre("it has no right_index_distal: they stay still"));
+  EXPECT_THAT(approximations(without_joints(first_signer(), {"LeftEye"}), other_signer()),
+              ElementsAre("it has no left_eye: they do not move on their own"));
 }
 
-TEST(BodyMatch, WhatIsAGuessIsRefused) {
-  RecordedBody guess = body_in("b", somebody());
+TEST(BodyMatch, AGuessedHandIsRefused) {
+  RecordedBody guess = body_in("b", first_signer());
   guess.signer.rig[Part::left_hand].confidence = 0.3f;
-  EXPECT_THAT(match_bodies(guess, body_in("a", somebody_else())).unsafe,
-              ElementsAre("which joints of 'b' are left_hand is a guess"));
-  EXPECT_THAT(match_bodies(body_in("a", somebody_else()), guess).unsafe,
-              ElementsAre("which joints of 'b' are left_hand is a guess"));
+  EXPECT_THAT(match_bodies(guess, body_in("a", other_signer())).unsafe,
+              ElementsAre("the joints of 'b' for left_hand are guesses"));
+  EXPECT_THAT(match_bodies(body_in("a", other_signer()), guess).unsafe,
+              ElementsAre("the joints of 'b' for left_hand are guesses"));
 }
 
-TEST(BodyMatch, AMappingFileTakesFingersAwayAndGivesThem) {
-  const Motion three = without_joints(somebody(), first_joints("LeftHand", {"Ring", "Pinky"}));
+TEST(BodyMatch, AMappingFileCanRemoveFingers) {
+  const Motion three = without_joints(first_signer(), first_joints("LeftHand", {"Ring", "Pinky"}));
   RigNames none;
   for (const Finger finger : kFingers) {
     for (std::size_t i = 0; i < kFingerPoints; ++i) {
       none[finger_part(Side::left, finger, static_cast<FingerPoint>(i))] = "";
     }
   }
-  EXPECT_EQ(refusal(three, somebody_else(), none), "none");
+  EXPECT_EQ(refusal(three, other_signer(), none), "none");
 }
 
 }  // namespace

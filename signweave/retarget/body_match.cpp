@@ -53,7 +53,7 @@ class Matcher {
     if (!missing.empty()) {
       forbid(body.recording, list_of(missing));
     } else if (!body.signer.body) {
-      match_.unsafe.push_back(fmt::format("the shoulders of '{}' lie in one place", body.recording));
+      match_.unsafe.push_back(fmt::format("the shoulders of '{}' coincide", body.recording));
     }
   }
 
@@ -65,7 +65,7 @@ class Matcher {
     return missing;
   }
 
-  /// True where both have the arm.
+  /// Returns true if both bodies have the arm.
   bool arm(Side side) {
     const std::vector<Part> from = missing_of_arm(from_, side);
     const std::vector<Part> to = missing_of_arm(to_, side);
@@ -87,14 +87,14 @@ class Matcher {
     };
     if (count(to_) == 0) {
       if (count(from_) > 0) {
-        match_.approximate.push_back(fmt::format("'{}' has no fingers of the {} hand: its handshapes are lost",
-                                                 target_.recording, side_name(side)));
+        match_.approximate.push_back(
+            fmt::format("'{}' has no fingers on the {} hand: handshapes are lost", target_.recording, side_name(side)));
       }
       return;
     }
     if (count(from_) == 0) {
       match_.approximate.push_back(
-          fmt::format("its {} hand has no fingers: they keep still, whatever the handshape was", side_name(side)));
+          fmt::format("its {} hand has no fingers: the target's fingers stay still", side_name(side)));
       return;
     }
     std::vector<Part> missing;
@@ -112,12 +112,12 @@ class Matcher {
     if (!missing.empty()) forbid(source_.recording, list_of(missing));
     if (!lost.empty()) {
       match_.approximate.push_back(
-          fmt::format("'{}' has no {}: what they do is lost", target_.recording, list_of(lost)));
+          fmt::format("'{}' has no {}: their movement is lost", target_.recording, list_of(lost)));
     }
-    if (!bends.empty()) match_.approximate.push_back(fmt::format("it has no {}: they keep still", list_of(bends)));
+    if (!bends.empty()) match_.approximate.push_back(fmt::format("it has no {}: they stay still", list_of(bends)));
   }
 
-  /// What signs lean on less: the head, legs, and what carries the face.
+  /// Parts that are less important for signs: the head, legs, and joints of the face.
   void others() {
     std::vector<Part> still;
     std::vector<Part> lost;
@@ -127,10 +127,10 @@ class Matcher {
       if (from_.has(part) && !to_.has(part)) lost.push_back(part);
     }
     if (!still.empty())
-      match_.approximate.push_back(fmt::format("it has no {}: they do not move of themselves", list_of(still)));
+      match_.approximate.push_back(fmt::format("it has no {}: they do not move on their own", list_of(still)));
     if (!lost.empty()) {
       match_.approximate.push_back(
-          fmt::format("'{}' has no {}: what they do is lost", target_.recording, list_of(lost)));
+          fmt::format("'{}' has no {}: their movement is lost", target_.recording, list_of(lost)));
     }
   }
 
@@ -145,7 +145,7 @@ class Matcher {
       for (const Finger finger : kFingers) look(finger_part(side, finger, FingerPoint::proximal));
     }
     if (!parts.empty()) {
-      match_.unsafe.push_back(fmt::format("which joints of '{}' are {} is a guess", body.recording, list_of(parts)));
+      match_.unsafe.push_back(fmt::format("the joints of '{}' for {} are guesses", body.recording, list_of(parts)));
     }
   }
 

@@ -9,21 +9,21 @@
 
 namespace signweave {
 
-/// Roughly where a character's clothes and face are, so that hands stay outside: the trunk down to the thighs as
-/// sections that round off to the sides, the head as one such body. Told from height, shoulders and eyes alone, with
-/// the proportions of the characters of studio/avatar. Of a character without height nothing is known. (ours)
+/// An approximate surface of a character's clothes and face that keeps hands outside: the trunk down to the thighs as
+/// sections with rounded sides, the head as one rounded body. Derived from height, shoulders and eyes alone, with the
+/// proportions of the characters of studio/avatar. A character without height has no surface. (ours)
 class BodySurface {
  public:
   BodySurface(const Character& character, const RigAxes& axes);
 
-  /// Takes up where trunk and head are in a pose.
+  /// Moves the surface with trunk and head of a pose.
   void place(const ModelPose& pose) noexcept;
 
-  /// The way out of the body for a ball whose middle is `point` (model space) and whose radius is `radius`, metres: the
-  /// shortest one along the surface's normal; zero where it is outside.
-  Eigen::Vector3f way_out(const Eigen::Vector3f& point, float radius) const noexcept;
+  /// Returns the displacement that moves a sphere with centre `point` (model space) and radius `radius`, metres, out of
+  /// the body: the shortest one along the surface's normal; zero if the sphere is outside.
+  Eigen::Vector3f push_out(const Eigen::Vector3f& point, float radius) const noexcept;
 
-  /// Scales lengths of a person of 1.67 m to this one.
+  /// Scale factor from a person of 1.67 m to this one.
   float scale() const noexcept { return scale_; }
 
  private:
@@ -35,12 +35,12 @@ class BodySurface {
     Eigen::Vector3f origin_now = Eigen::Vector3f::Zero();      ///< model space
     Eigen::Quaternionf turn_now = Eigen::Quaternionf::Identity();
   };
-  static Eigen::Vector3f trunk_way(const Eigen::Vector3f& point, float radius) noexcept;
-  static Eigen::Vector3f head_way(const Eigen::Vector3f& point, float radius) noexcept;
+  static Eigen::Vector3f push_out_of_trunk(const Eigen::Vector3f& point, float radius) noexcept;
+  static Eigen::Vector3f push_out_of_head(const Eigen::Vector3f& point, float radius) noexcept;
 
   float scale_ = 1;
-  std::optional<Space> chest_;   ///< with the pelvis, or neither
-  std::optional<Space> pelvis_;  ///< its origin, too, is between the shoulders at rest
+  std::optional<Space> chest_;   ///< present if and only if pelvis_ is
+  std::optional<Space> pelvis_;  ///< its origin is also between the shoulders at rest
   std::optional<Space> head_;
 };
 

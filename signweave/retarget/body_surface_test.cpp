@@ -19,31 +19,31 @@ struct Body {
   Vector3f shoulders() const { return 0.5f * (axes.place(Part::left_upper_arm) + axes.place(Part::right_upper_arm)); }
 };
 
-TEST(BodySurface, WhatIsInTheChestComesOutForwardAndStaysOut) {
+TEST(BodySurface, PointsInTheChestMoveOutForwardAndStayOut) {
   const Body body;
   for (int k = -5; k <= 5; ++k) {
     const float x = 0.02f * static_cast<float>(k);
     const Vector3f inside = body.shoulders() + Vector3f(x, -0.15f, 0.10f);
-    const Vector3f way = body.surface.way_out(inside, 0.01f);
+    const Vector3f way = body.surface.push_out(inside, 0.01f);
     EXPECT_GT(way.z(), 0.02f) << x;
     EXPECT_EQ(way.y(), 0) << x;
-    EXPECT_LT(body.surface.way_out(inside + way, 0.01f).norm(), 0.004f) << x;
+    EXPECT_LT(body.surface.push_out(inside + way, 0.01f).norm(), 0.004f) << x;
   }
 }
 
-TEST(BodySurface, WhatIsOutsideIsLeftAlone) {
+TEST(BodySurface, PointsOutsideAreNotMoved) {
   const Body body;
-  EXPECT_EQ(body.surface.way_out(body.shoulders() + Vector3f(0, -0.15f, 0.20f), 0.01f).norm(), 0);
-  EXPECT_EQ(body.surface.way_out(body.shoulders() + Vector3f(0.3f, -0.15f, 0), 0.01f).norm(), 0);
+  EXPECT_EQ(body.surface.push_out(body.shoulders() + Vector3f(0, -0.15f, 0.20f), 0.01f).norm(), 0);
+  EXPECT_EQ(body.surface.push_out(body.shoulders() + Vector3f(0.3f, -0.15f, 0), 0.01f).norm(), 0);
 }
 
-TEST(BodySurface, GrowsEvenly) {
-  // Nothing may jump: a step of a millimetre changes the way out by little.
+TEST(BodySurface, DisplacementIsContinuous) {
+  // The displacement must be continuous: a step of a millimetre changes it by little.
   const Body body;
-  Vector3f last = body.surface.way_out(body.shoulders() + Vector3f(0.05f, -0.3f, 0.09f), 0.01f);
+  Vector3f last = body.surface.push_out(body.shoulders() + Vector3f(0.05f, -0.3f, 0.09f), 0.01f);
   for (int i = 1; i < 400; ++i) {
     const Vector3f now =
-        body.surface.way_out(body.shoulders() + Vector3f(0.05f, -0.3f + 0.001f * static_cast<float>(i), 0.09f), 0.01f);
+        body.surface.push_out(body.shoulders() + Vector3f(0.05f, -0.3f + 0.001f * static_cast<float>(i), 0.09f), 0.01f);
     EXPECT_LT((now - last).norm(), 0.003f) << i;
     last = now;
   }
@@ -54,7 +54,7 @@ TEST(BodySurface, MovesWithTheTrunk) {
   Pose pose(*body.character.skeleton);
   pose.view().rotations[0] = AngleAxisf(1.57f, Vector3f::UnitY());
   body.surface.place(to_model_space(*body.character.skeleton, pose.view()));
-  EXPECT_GT(body.surface.way_out(body.shoulders() + Vector3f(0.10f, -0.15f, 0), 0.01f).x(), 0.02f);
+  EXPECT_GT(body.surface.push_out(body.shoulders() + Vector3f(0.10f, -0.15f, 0), 0.01f).x(), 0.02f);
 }
 
 }  // namespace

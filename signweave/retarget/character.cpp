@@ -27,7 +27,7 @@ using Eigen::Vector3f;
 
 constexpr std::uintmax_t kMostBytes = 256u << 20;
 
-/// What a file may need beside core glTF: it changes meshes and pictures only, which are not looked at.
+/// Extensions that a file may require in addition to core glTF: they only change meshes and images, which are ignored.
 constexpr std::array<std::string_view, 3> kKnownExtensions = {"EXT_meshopt_compression", "EXT_texture_webp",
                                                               "KHR_mesh_quantization"};
 
@@ -51,7 +51,7 @@ struct Node {
   static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
 };
 
-/// Throws where a node has two parents, so what is below any node without one is a tree.
+/// Throws if a node has two parents, so the nodes below any root form a tree.
 std::vector<Node> nodes_of(const JsonValue& file) {
   const JsonValue list = file["nodes"];
   std::vector<Node> nodes(list.size());
@@ -66,17 +66,17 @@ std::vector<Node> nodes_of(const JsonValue& file) {
       nodes[i].children.push_back(child);
     }
   }
-  if (file["skins"].size() != 1) file["skins"].fail(fmt::format("{}: a character has one", file["skins"].size()));
+  if (file["skins"].size() != 1) file["skins"].fail(fmt::format("{} skins: a character has one", file["skins"].size()));
   const JsonValue joints = file["skins"][0]["joints"];
   for (std::size_t i = 0; i < joints.size(); ++i) {
     Node& node = nodes[joints[i].index(nodes.size())];
-    if (node.is_joint) joints[i].fail("a joint twice");
+    if (node.is_joint) joints[i].fail("the joint is listed twice");
     node.is_joint = true;
   }
   return nodes;
 }
 
-/// Where a joint is from its parent, metres. At rest it is neither turned nor scaled.
+/// Returns the offset of a joint from its parent, metres. Throws if it is rotated or scaled at rest.
 Vector3f offset_of(const JsonValue& node, const std::string& name) {
   const auto is = [&](const char* key, std::initializer_list<float> wanted) {
     if (!node.has(key)) return true;
@@ -89,12 +89,12 @@ Vector3f offset_of(const JsonValue& node, const std::string& name) {
     return true;
   };
   if (node.has("matrix") || !is("rotation", {0, 0, 0, 1}) || !is("scale", {1, 1, 1})) {
-    node.fail(fmt::format("the joint {} is turned or scaled at rest", printable(name)));
+    node.fail(fmt::format("the joint {} is rotated or scaled at rest", printable(name)));
   }
   return node.has("translation") ? node["translation"].vector(10) : Vector3f(Vector3f::Zero());
 }
 
-/// The joints of the one skin, parents first, in the order of the node tree.
+/// Returns the joints of the only skin, parents first, in the order of the node tree.
 std::shared_ptr<const Skeleton> skeleton_of(const JsonValue& file) {
   const std::vector<Node> nodes = nodes_of(file);
   std::vector<std::size_t> roots;
@@ -105,13 +105,13 @@ std::shared_ptr<const Skeleton> skeleton_of(const JsonValue& file) {
     if (nodes[i].parent == Node::kNone) {
       roots.push_back(i);
     } else if (!nodes[nodes[i].parent].is_joint) {
-      file.fail(fmt::format("the joint {} lies below a node that is none", printable(nodes[i].name)));
+      file.fail(fmt::format("the parent of the joint {} is not a joint", printable(nodes[i].name)));
     }
   }
   if (roots.size() != 1) file.fail(fmt::format("{} root joints: a character has one", roots.size()));
   const JsonValue list = file["nodes"];
   std::vector<Joint> joints;
-  // Depth first, children in their order. Each node has one parent, so this ends.
+  // Depth first, children in order. Each node has one parent, so this terminates.
   struct Open {
     std::size_t node;
     JointIndex above;
@@ -127,7 +127,7 @@ std::shared_ptr<const Skeleton> skeleton_of(const JsonValue& file) {
       if (nodes[*child].is_joint) open.push_back({*child, joint});
     }
   }
-  if (joints.size() != count) file.fail("some joints hang on no root");
+  if (joints.size() != count) file.fail("some joints are not below the root");
   return std::make_shared<const Skeleton>(std::move(joints), std::vector<Tip>{});
 }
 
@@ -141,10 +141,10 @@ Character read_character_bytes(const std::string& name, std::string_view bytes) 
   character.skeleton = skeleton_of(file);
   const Motion rest(character.skeleton, {30, 1}, 1);
   character.rig = map_rig(rest);
-  // Where eyes and top of the head are is told in numbers, and no joint says it.
+  // The positions of the eyes and the top of the head are given as numbers, because no joint marks them.
   const JsonValue asset = file["asset"];
   if (!asset.has("extras") || !asset["extras"].has("signweave")) {
-    refuse(name, "no asset.extras.signweave: no character of studio/avatar");
+    refuse(name, "no asset.extras.signweave: not a character of studio/avatar");
   }
   read_extras(asset["extras"]["signweave"], character);
   if (!character.rig.has(Part::head)) refuse(name, "no head among the joints");

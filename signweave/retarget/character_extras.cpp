@@ -21,9 +21,9 @@ JointIndex joint_of(const JsonValue& name, const Skeleton& skeleton) {
 }
 
 AngleLimits limits_of(const JsonValue& pair) {
-  if (pair.size() != 2) pair.fail("two numbers are expected");
+  if (pair.size() != 2) pair.fail("expected two numbers");
   const AngleLimits limits = {pair[0].number(-180, 180) * kRadian, pair[1].number(-180, 180) * kRadian};
-  if (limits.least > limits.greatest) pair.fail("the least is above the greatest");
+  if (limits.least > limits.greatest) pair.fail("the lower limit exceeds the upper limit");
   return limits;
 }
 
@@ -33,14 +33,15 @@ CharacterFinger finger_of(const JsonValue& extras, const Skeleton& skeleton) {
   const JsonValue rest = extras["restFlexion"];
   const JsonValue flexion = extras["limits"]["flexion"];
   for (const JsonValue& list : {joints, rest, flexion}) {
-    if (list.size() != 3) list.fail("three are expected");
+    if (list.size() != 3) list.fail("expected three entries");
   }
   for (std::size_t i = 0; i < 3; ++i) {
     finger.joints[i] = joint_of(joints[i], skeleton);
     finger.rest_flexion[i] = rest[i].number(-180, 180) * kRadian;
     finger.flexion[i] = limits_of(flexion[i]);
     const JointIndex parent = skeleton.joint(finger.joints[i]).parent;
-    if (i > 0 && parent != finger.joints[i - 1]) joints[i].fail("a finger's joints follow each other");
+    if (i > 0 && parent != finger.joints[i - 1])
+      joints[i].fail("each joint of a finger must be the parent of the next");
   }
   finger.spread = limits_of(extras["limits"]["spread"]);
   finger.flexion_axis = extras["flexionAxis"].direction();
@@ -52,7 +53,7 @@ CharacterFinger finger_of(const JsonValue& extras, const Skeleton& skeleton) {
 }  // namespace
 
 void read_extras(const JsonValue& extras, Character& character) {
-  if (extras["version"].number(-1e6f, 1e6f) != 1) extras["version"].fail("only version 1 is known");
+  if (extras["version"].number(-1e6f, 1e6f) != 1) extras["version"].fail("only version 1 is supported");
   const Skeleton& skeleton = *character.skeleton;
   character.name = extras["character"].text();
   character.height = extras["height"].number(0.1f, 5);
@@ -79,14 +80,14 @@ void read_extras(const JsonValue& extras, Character& character) {
       for (std::size_t i = 0; i < 3; ++i) {
         put(finger_part(side, finger, static_cast<FingerPoint>(i + 1)), made.joints[i], none);
       }
-      // The rest has no turns: a tip's place less its joint's is the offset.
+      // There are no rotations at rest: the offset is the tip's position minus its joint's.
       Eigen::Vector3f last = Eigen::Vector3f::Zero();
       for (JointIndex joint = made.joints[2]; joint != kNoJoint; joint = skeleton.joint(joint).parent) {
         last += skeleton.joint(joint).offset;
       }
       const JsonValue tip = hand["fingers"][kFingerNames[f]]["tip"];
       const Eigen::Vector3f offset = tip.vector(10) - last;
-      if (offset.norm() > 0.2f || offset.norm() < 1e-4f) tip.fail("no fingertip: too far from its joint, or on it");
+      if (offset.norm() > 0.2f || offset.norm() < 1e-4f) tip.fail("not a fingertip: too far from its joint, or at it");
       put(finger_part(side, finger, FingerPoint::tip), made.joints[2], offset);
     }
   }

@@ -5,7 +5,7 @@
 
 namespace signweave {
 
-/// What `extras` (asset.extras.signweave) tells: hands, face units, sizes. `character.skeleton` is there.
+/// Reads hands, face units and sizes from `extras` (asset.extras.signweave). Precondition: `character.skeleton` is set.
 void read_extras(const JsonValue& extras, Character& character);
 
 }  // namespace signweave

@@ -85,7 +85,7 @@ std::string error_of(const std::string& bytes) {
   return "none";
 }
 
-TEST(Character, IsWhatTheFileTells) {
+TEST(Character, IsReadFromTheFile) {
   const auto skeleton = whole_person();
   const Character character = read_character_bytes("x.glb", glb(text_of(*skeleton)));
   EXPECT_EQ(character.name, "made");
@@ -103,27 +103,29 @@ TEST(Character, IsWhatTheFileTells) {
 TEST(Character, ErrorsAreOneClearLine) {
   using testing::HasSubstr;
   const std::string text = text_of(*whole_person());
-  EXPECT_EQ(error_of("no"), "x.glb: no GLB file");
+  EXPECT_EQ(error_of("no"), "x.glb: not a GLB file");
   EXPECT_THAT(error_of(glb("{")), HasSubstr("x.glb: its JSON cannot be read"));
   EXPECT_THAT(error_of(glb(replaced(text, "\"signweave\"", "\"other\""))), HasSubstr("no asset.extras.signweave"));
-  EXPECT_THAT(error_of(glb(replaced(text, "\"version\":1", "\"version\":2"))), HasSubstr("only version 1"));
+  EXPECT_THAT(error_of(glb(replaced(text, "\"version\":1", "\"version\":2"))),
+              HasSubstr("only version 1 is supported"));
   EXPECT_THAT(error_of(glb(replaced(text, "\"wrist\":\"LeftHand\"", "\"wrist\":\"Nobody\""))),
               HasSubstr("no joint Nobody"));
-  EXPECT_THAT(error_of(glb(replaced(text, "[[-20,90]", "[[90,-20]"))), HasSubstr("the least is above the greatest"));
+  EXPECT_THAT(error_of(glb(replaced(text, "[[-20,90]", "[[90,-20]"))),
+              HasSubstr("the lower limit exceeds the upper limit"));
   EXPECT_THAT(error_of(glb(replaced(text, "\"flexionAxis\":[0,0,1]", "\"flexionAxis\":[0,0,9]"))),
-              HasSubstr("no unit vector"));
+              HasSubstr("not a unit vector"));
   EXPECT_THAT(error_of(glb(replaced(text, "\"skins\":[{\"joints\":[0,", "\"skins\":[{\"joints\":[999,"))),
-              HasSubstr("x.glb: skins[0].joints[0]: names what is not there"));
+              HasSubstr("x.glb: skins[0].joints[0]: not a valid index"));
   EXPECT_THAT(error_of(glb(replaced(text, "\"children\":[1,", "\"children\":[777,"))),
-              HasSubstr("nodes[0].children[0]: names what is not there"));
+              HasSubstr("nodes[0].children[0]: not a valid index"));
   EXPECT_THAT(error_of(glb(replaced(text, "\"asset\":", "\"extensionsRequired\":[\"EXT_x\"],\"asset\":"))),
               HasSubstr("x.glb: needs the extension EXT_x"));
   EXPECT_THAT(error_of(glb(replaced(text, "\"name\":\"Spine\",", "\"name\":\"Spine\",\"rotation\":[0,1,0,0],"))),
-              HasSubstr("the joint Spine is turned or scaled at rest"));
+              HasSubstr("the joint Spine is rotated or scaled at rest"));
 }
 
-TEST(Character, APackedFileIsReadLikeAPlainOne) {
-  // Meshes and pictures are packed; a buffer stands for what unpacking makes and has no bytes.
+TEST(Character, ACompressedFileIsReadLikeAPlainOne) {
+  // Meshes and images are compressed; one buffer is a placeholder for the decompressed data and has no bytes.
   const std::string text = text_of(*whole_person());
   const std::string packed = replaced(
       text, "\"asset\":",
@@ -144,7 +146,7 @@ TEST(Character, APackedFileIsReadLikeAPlainOne) {
 TEST(Character, LengthsAreCheckedAgainstTheBytes) {
   const std::string whole = glb(text_of(*whole_person()));
   EXPECT_EQ(error_of(whole), "none");
-  // Cut anywhere it is an error, and never a crash.
+  // A file truncated anywhere gives an error, never a crash.
   for (std::size_t size = 0; size < whole.size(); size += 1 + size / 7) {
     EXPECT_NE(error_of(whole.substr(0, size)), "none") << size;
   }
@@ -152,13 +154,13 @@ TEST(Character, LengthsAreCheckedAgainstTheBytes) {
     std::string text = whole;
     return text.replace(at, bytes.size(), bytes);
   };
-  EXPECT_EQ(error_of(with(4, "\1")), "x.glb: only GLB of version 2 is known");
+  EXPECT_EQ(error_of(with(4, "\1")), "x.glb: only GLB version 2 is supported");
   EXPECT_EQ(error_of(with(12, "\xFF\xFF\xFF\xFF")), "x.glb: its JSON is longer than the file");
-  EXPECT_EQ(error_of(with(16, "BIN ")), "x.glb: a GLB file begins with JSON");
+  EXPECT_EQ(error_of(with(16, "BIN ")), "x.glb: a GLB file must begin with JSON");
   EXPECT_EQ(error_of(with(20, "[")), "x.glb: its JSON cannot be read");
 }
 
-TEST(Character, AFileThatIsNotThereIsNotFound) {
+TEST(Character, AMissingFileIsNotFound) {
   EXPECT_THROW(read_character("/nowhere/x.glb"), Error);
 }
 

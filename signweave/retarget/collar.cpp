@@ -13,25 +13,25 @@ using Eigen::AngleAxisf;
 using Eigen::Quaternionf;
 using Eigen::Vector3f;
 
-/// Of the arm's height above 35° below the horizontal, and of its turn forward past 25° from the side, what the collar
-/// bone takes; and how far it goes at most. (ours; about what is known of shoulders)
+/// The fractions that the clavicle takes of the arm's elevation above 35° below the horizontal, and of its rotation
+/// forward past 25° from the side; and the maximum angles. (ours; roughly what is known of shoulders)
 constexpr float kLift = 0.25f;
 constexpr float kLiftFrom = -35 * kDegree;
 constexpr float kMostLift = 24 * kDegree;
 constexpr float kForward = 0.20f;
 constexpr float kForwardFrom = 25 * kDegree;
 constexpr float kMostForward = 20 * kDegree;
-/// Over which angle a share begins.
+/// The angle over which a share sets in.
 constexpr float kSoft = 12 * kDegree;
 
-/// 0 below 0, the value above, smooth between.
+/// Returns 0 below 0, the value above, smooth in between.
 float softened(float value) {
   if (value <= -kSoft) return 0;
   if (value >= kSoft) return value;
   return (value + kSoft) * (value + kSoft) / (4 * kSoft);
 }
 
-/// Comes near `most` without a corner.
+/// Limits a value smoothly to `most`.
 float held(float value, float most) {
   return most * std::tanh(value / most);
 }
@@ -64,16 +64,16 @@ std::optional<CharacterCollar> CharacterCollar::make(const Character& character,
   return made;
 }
 
-void CharacterCollar::lay(const Skeleton& skeleton, ModelPose& pose) const noexcept {
+void CharacterCollar::apply(const Skeleton& skeleton, ModelPose& pose) const noexcept {
   const auto at = [](JointIndex joint) { return static_cast<std::size_t>(joint); };
   const Quaternionf chest = pose.rotations[at(chest_)] * trunk_;
-  // Up, out to the side, back.
+  // Components: up, left, back.
   const Vector3f arm = chest.conjugate() * (pose.rotations[at(arm_)] * arm_axis_);
   const float height = std::asin(std::clamp(arm.x(), -1.0f, 1.0f));
   const float level = std::hypot(arm.y(), arm.z());
   const float forward = std::atan2(-arm.z(), side_ * arm.y());
   const float lift = held(kLift * softened(height - kLiftFrom), kMostLift);
-  // An arm that hangs or stands upright points nowhere.
+  // A vertical arm has no direction about the vertical.
   const float ahead = level * held(kForward * softened(forward - kForwardFrom), kMostForward);
   const Quaternionf turn = chest * AngleAxisf(side_ * lift, -Vector3f::UnitZ()) *
                            AngleAxisf(-side_ * ahead, Vector3f::UnitX()) * chest.conjugate();

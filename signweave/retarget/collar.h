@@ -10,21 +10,21 @@
 
 namespace signweave {
 
-/// A character's collar bone that goes along with the arm, for sources whose own does not move: it rises with an arm
-/// that rises, and comes forward with one that reaches forward or across.
+/// A character's clavicle that follows the arm, for sources whose own clavicle does not move: it rises with a rising
+/// arm, and moves forward with an arm that reaches forward or across.
 class CharacterCollar {
  public:
-  /// None where the character lacks collar bone or arm.
+  /// Returns nullopt if the character lacks clavicle or arm.
   static std::optional<CharacterCollar> make(const Character& character, const RigAxes& axes, Side side);
 
-  /// `pose` has the turns that the source told. The turns of the joints from the collar bone to before the shoulder are
-  /// changed, and the places of all that lies below.
-  void lay(const Skeleton& skeleton, ModelPose& pose) const noexcept;
+  /// On entry `pose` contains the source's rotations. Changes the rotations of the joints from the clavicle to before
+  /// the shoulder, and the positions of all joints below.
+  void apply(const Skeleton& skeleton, ModelPose& pose) const noexcept;
 
  private:
   float side_ = 1;                 ///< 1: left
-  std::vector<JointIndex> bones_;  ///< from the collar bone to before the shoulder
-  std::vector<JointIndex> below_;  ///< all below the collar bone, parents first
+  std::vector<JointIndex> bones_;  ///< from the clavicle to before the shoulder
+  std::vector<JointIndex> below_;  ///< all joints below the clavicle, parents first
   JointIndex chest_ = kNoJoint;    ///< its parent
   JointIndex arm_ = kNoJoint;
   Eigen::Vector3f arm_axis_;  ///< along the upper arm at rest, unit

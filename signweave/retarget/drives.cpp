@@ -11,8 +11,8 @@ namespace {
 using Eigen::Quaternionf;
 using Eigen::Vector3f;
 
-/// A joint on a chain, and how far along the chain it lies, in [0, 1].
-struct Place {
+/// A joint on a chain and its position along the chain, in [0, 1].
+struct ChainJoint {
   JointIndex joint;
   float along;
 };
@@ -48,43 +48,46 @@ class Builder {
     if (from_.has(part) && to().has(part)) drive(to()[part].joint, from_[part].joint, correction(part));
   }
 
-  static std::vector<Place> places(const std::vector<JointIndex>& path, const RigAxes& axes) {
-    std::vector<Place> result;
+  static std::vector<ChainJoint> places(const std::vector<JointIndex>& path, const RigAxes& axes) {
+    std::vector<ChainJoint> result;
     float sum = 0;
     for (std::size_t i = 0; i < path.size(); ++i) {
       if (i > 0) sum += (axes.places()[at(path[i])] - axes.places()[at(path[i - 1])]).norm();
       result.push_back({path[i], sum});
     }
-    for (Place& place : result) place.along = sum > 0 ? place.along / sum : 0;
+    for (ChainJoint& joint : result) joint.along = sum > 0 ? joint.along / sum : 0;
     return result;
   }
 
-  /// Drives the target's chain from the source's: each joint by what lies as far along, between two keys by both.
-  void drive_chain(const std::vector<Place>& chain, const std::vector<Place>& keys, const Quaternionf& correction) {
-    for (const Place& place : chain) {
+  /// Drives the target's chain from the source's: each joint by the source joint at the same relative position, or by
+  /// the two around it.
+  void drive_chain(const std::vector<ChainJoint>& chain, const std::vector<ChainJoint>& keys,
+                   const Quaternionf& correction) {
+    for (const ChainJoint& place : chain) {
       std::size_t next = 0;
       while (next < keys.size() && keys[next].along <= place.along + 1e-5f) ++next;
-      const Place& first = keys[next == 0 ? 0 : next - 1];
+      const ChainJoint& first = keys[next == 0 ? 0 : next - 1];
       if (next == 0 || next == keys.size()) {
         drive(place.joint, first.joint, correction);
         continue;
       }
-      const Place& second = keys[next];
+      const ChainJoint& second = keys[next];
       const float share = (place.along - first.along) / (second.along - first.along);
       made_.joints[at(place.joint)] = {first.joint, second.joint, share, correction, correction};
       if (share < 1e-4f) made_.joints[at(place.joint)].second = first.joint;
     }
   }
 
-  /// The chain's joints from one part to the next, the last one left out.
-  static std::vector<Place> limb(const Skeleton& skeleton, const RigMap& rig, const RigAxes& axes, Part from, Part to) {
-    std::vector<Place> chain = places(path_between(skeleton, rig[from].joint, rig[to].joint), axes);
+  /// Returns the chain's joints from one part to the next, without the last one.
+  static std::vector<ChainJoint> limb(const Skeleton& skeleton, const RigMap& rig, const RigAxes& axes, Part from,
+                                      Part to) {
+    std::vector<ChainJoint> chain = places(path_between(skeleton, rig[from].joint, rig[to].joint), axes);
     if (!chain.empty()) chain.pop_back();
     return chain;
   }
   bool both_have(Part a, Part b) const { return from_.has(a) && from_.has(b) && to().has(a) && to().has(b); }
 
-  /// True where the source has joints of its own between the two parts.
+  /// Returns whether the source has extra joints between the two parts.
   bool drive_limb(Part from, Part to_part) {
     if (!both_have(from, to_part)) return false;
     const auto keys = limb(source_, from_, from_axes_, from, to_part);
@@ -112,7 +115,7 @@ class Builder {
     const JointIndex to_low = low(to()) == kNoJoint ? 0 : low(to());
     const JointIndex to_high = high(to()) == kNoJoint ? to_low : high(to());
     const Quaternionf turn = from_axes_.trunk() * axes_.trunk().conjugate();
-    // What lies above the pelvis goes with it.
+    // Joints above the pelvis follow it.
     for (JointIndex joint = to_low; joint != kNoJoint; joint = target().joint(joint).parent) {
       drive(joint, from_low, turn);
     }
@@ -121,9 +124,9 @@ class Builder {
     };
     const auto keys = places(or_one(path_between(source_, from_low, from_high), from_low), from_axes_);
     drive_chain(places(or_one(path_between(target(), to_low, to_high), to_low), axes_), keys, turn);
-    // The neck turns between chest and head. A source without a head keeps it on the trunk.
+    // The neck is interpolated between chest and head. Without a head in the source it stays fixed to the trunk.
     if (!from_.has(Part::head) || !to().has(Part::head)) {
-      made_.missing.emplace_back("no head: it stays as the trunk has it");
+      made_.missing.emplace_back("no head: it stays fixed to the trunk");
       return;
     }
     auto up =

@@ -10,17 +10,17 @@
 
 namespace signweave {
 
-/// Where the turn of one of the character's joints comes from: between two of the source's.
+/// The source of one character joint's rotation: interpolated between two joints of the source.
 struct Drive {
-  JointIndex first = kNoJoint;   ///< of the source; kNoJoint: the joint goes with its parent
-  JointIndex second = kNoJoint;  ///< the same as `first` where one joint tells all
-  float share = 0;               ///< of `second`, in [0, 1]
+  JointIndex first = kNoJoint;   ///< joint of the source; kNoJoint: the joint follows its parent
+  JointIndex second = kNoJoint;  ///< equal to `first` if a single joint drives it
+  float share = 0;               ///< weight of `second`, in [0, 1]
   Eigen::Quaternionf from_first =
-      Eigen::Quaternionf::Identity();  ///< first_from_joint: turns the joint's axes into first's
+      Eigen::Quaternionf::Identity();  ///< first_from_joint: rotates the joint's axes into first's
   Eigen::Quaternionf from_second = Eigen::Quaternionf::Identity();
 
   bool driven() const noexcept { return first != kNoJoint; }
-  /// model_from_joint, of a driven joint.
+  /// Returns model_from_joint of a driven joint.
   Eigen::Quaternionf turn(const ModelPose& source) const noexcept {
     Eigen::Quaternionf a = source.rotations[static_cast<std::size_t>(first)] * from_first;
     if (second == first) return a;
@@ -28,17 +28,17 @@ struct Drive {
   }
 };
 
-/// The joints from one to another below it, with both; empty where it is not below.
+/// Returns the joints from `upper` to its descendant `lower`, inclusive; empty if it is not a descendant.
 std::vector<JointIndex> path_between(const Skeleton& skeleton, JointIndex upper, JointIndex lower);
 
-/// How a source's joints drive a character's: part for part, and along spine, neck and limbs by how far up the joints
-/// lie, so that five bones share what two did.
+/// How a source's joints drive a character's: part by part, and along spine, neck and limbs by the relative position on
+/// the chain, so that five bones share what two did.
 struct Drives {
   std::vector<Drive> joints;          ///< [the character's joint]
-  std::array<bool, 2> upper_twist{};  ///< [Side] the source's upper arm has joints of its own that carry its twist
-  std::array<bool, 2> lower_twist{};  ///< the same of the forearm
-  std::array<bool, 2> collar{};       ///< the source has a collar bone
-  std::vector<std::string> missing;   ///< what stays at rest, a line each
+  std::array<bool, 2> upper_twist{};  ///< [Side] the source's upper arm has extra joints that carry its twist
+  std::array<bool, 2> lower_twist{};  ///< the same for the forearm
+  std::array<bool, 2> collar{};       ///< [Side] the source has a clavicle
+  std::vector<std::string> missing;   ///< one line for each part that stays at rest
 };
 Drives drives_of(const Skeleton& source, const RigMap& source_rig, const RigAxes& source_axes,
                  const Character& character, const RigAxes& axes);

@@ -14,11 +14,11 @@ using Eigen::AngleAxisf;
 using Eigen::Quaternionf;
 using Eigen::Vector3f;
 
-/// Tips nearer to the thumb's than the first are brought as near; past the second they go as their bones do. Metres of
-/// a hand of the character's size.
+/// Tips closer to the thumb's tip than the first distance are moved to the source's distance; beyond the second they
+/// follow their bones. Metres for a hand of the character's size.
 constexpr float kPinched = 0.018f;
 constexpr float kApart = 0.055f;
-/// Of what is missing, what the thumb does.
+/// The thumb's fraction of the correction.
 constexpr float kThumbShare = 0.5f;
 
 }  // namespace
@@ -44,7 +44,7 @@ CharacterFingers::CharacterFingers(const Character& character, const RigMap& sou
   }
 }
 
-void CharacterFingers::bound(const CharacterFinger& finger, std::size_t i, const Skeleton& skeleton,
+void CharacterFingers::limit(const CharacterFinger& finger, std::size_t i, const Skeleton& skeleton,
                              ModelPose& pose) const noexcept {
   const JointIndex joint = finger.joints[i];
   const Quaternionf parent = pose.rotations[at(skeleton.joint(joint).parent)];
@@ -52,7 +52,7 @@ void CharacterFingers::bound(const CharacterFinger& finger, std::size_t i, const
   const float flexion = twist_about(local, finger.flexion_axis);
   const float bounded = std::clamp(flexion, finger.flexion[i].least - finger.rest_flexion[i],
                                    finger.flexion[i].greatest - finger.rest_flexion[i]);
-  // What is left beside the flexion: spread, and what no finger does.
+  // The rotation without the flexion: spread, and rotations that fingers do not have.
   Quaternionf swing = local * Quaternionf(AngleAxisf(-flexion, finger.flexion_axis));
   const AngleLimits sideways = i == 0 ? finger.spread : AngleLimits{-finger.slack, finger.slack};
   const float spread = twist_about(swing, finger.spread_axis);
@@ -62,20 +62,21 @@ void CharacterFingers::bound(const CharacterFinger& finger, std::size_t i, const
   pose.rotations[at(joint)] = (parent * swing * Quaternionf(AngleAxisf(bounded, finger.flexion_axis))).normalized();
 }
 
-void CharacterFingers::place(const CharacterFinger& finger, const Skeleton& skeleton, ModelPose& pose) const noexcept {
+void CharacterFingers::update_positions(const CharacterFinger& finger, const Skeleton& skeleton,
+                                        ModelPose& pose) const noexcept {
   for (const JointIndex index : finger.joints) {
     const Joint& joint = skeleton.joint(index);
     pose.positions[at(index)] = pose.positions[at(joint.parent)] + pose.rotations[at(joint.parent)] * joint.offset;
   }
 }
 
-void CharacterFingers::lay(const Skeleton& skeleton, const Drives& drives, ModelPose& pose) const noexcept {
+void CharacterFingers::constrain(const Skeleton& skeleton, const Drives& drives, ModelPose& pose) const noexcept {
   for (const JointIndex joint : below_) {
     const auto parent = at(skeleton.joint(joint).parent);
     if (!drives.joints[at(joint)].driven()) pose.rotations[at(joint)] = pose.rotations[parent] * still_[at(joint)];
     for (const CharacterFinger& finger : fingers_) {
       for (std::size_t i = 0; i < 3; ++i) {
-        if (finger.joints[i] == joint && drives.joints[at(joint)].driven()) bound(finger, i, skeleton, pose);
+        if (finger.joints[i] == joint && drives.joints[at(joint)].driven()) limit(finger, i, skeleton, pose);
       }
     }
     pose.positions[at(joint)] = pose.positions[parent] + pose.rotations[parent] * skeleton.joint(joint).offset;
@@ -86,10 +87,10 @@ void CharacterFingers::pinch(const Skeleton& skeleton, const ModelPose& source, 
                              float scale, ModelPose& pose) const noexcept {
   const CharacterFinger& thumb = fingers_[0];
   if (!tips_[0] || !thumb.known()) return;
-  // A few rounds: each turn of the thumb moves its tip away from the other fingers' goals.
+  // Several rounds: each rotation of the thumb moves its tip away from the other fingers' goals.
   const auto turn = [&](const CharacterFinger& finger, const PartPlace& tip, const Vector3f& by) {
     const Vector3f end = position_of(tip, pose);
-    // Shared by the first two joints, so that neither turns much.
+    // Distributed over the first two joints, so that neither rotates much.
     for (std::size_t k = 0; k < 2; ++k) {
       const Vector3f at_joint = pose.positions[at(finger.joints[k])];
       const Vector3f arm = position_of(tip, pose) - at_joint;
@@ -98,7 +99,7 @@ void CharacterFingers::pinch(const Skeleton& skeleton, const ModelPose& source, 
       const Quaternionf turned = turn_between(arm, goal);
       for (std::size_t i = k; i < 3; ++i)
         pose.rotations[at(finger.joints[i])] = turned * pose.rotations[at(finger.joints[i])];
-      place(finger, skeleton, pose);
+      update_positions(finger, skeleton, pose);
     }
   };
   for (int round = 0; round < 4; ++round) {
@@ -120,8 +121,8 @@ void CharacterFingers::pinch(const Skeleton& skeleton, const ModelPose& source, 
   }
   for (const CharacterFinger& finger : fingers_) {
     if (!finger.known()) continue;
-    for (std::size_t i = 0; i < 3; ++i) bound(finger, i, skeleton, pose);
-    place(finger, skeleton, pose);
+    for (std::size_t i = 0; i < 3; ++i) limit(finger, i, skeleton, pose);
+    update_positions(finger, skeleton, pose);
   }
 }
 

@@ -10,19 +10,19 @@ namespace {
 
 using Eigen::Vector3f;
 
-/// Metres of the character's size. Beside the face places are the face's own; two hands keep their places beside each
-/// other wholly when as near as the first, not at all past the second.
+/// Metres for the character's size. Near the face, positions are relative to the face; two hands keep their relative
+/// position fully below the first distance, not at all beyond the second.
 constexpr float kFaceNear = 0.09f;
 constexpr float kFaceFar = 0.22f;
 constexpr float kHandsNear = 0.02f;
 constexpr float kHandsFar = 0.10f;
-/// A finger's half thickness and the wrist's, metres of a person of 1.67 m.
+/// Half the thickness of a finger and of the wrist, metres for a person of 1.67 m.
 constexpr float kFingerRadius = 0.010f;
 constexpr float kWristRadius = 0.024f;
-/// How fast a pair of points counts less than the nearest pair, metres.
+/// How fast the weight of a pair of points decreases with its distance beyond the nearest pair's, metres.
 constexpr float kBlur = 0.012f;
 
-/// A hand's points: the source's places, and the character's from its wrist.
+/// A hand's points: the source's positions, and the character's relative to its wrist.
 struct Points {
   std::array<Vector3f, CharacterFingers::kMostPoints + 1> source;
   std::array<Vector3f, CharacterFingers::kMostPoints + 1> own;
@@ -45,26 +45,26 @@ Points points_of(const TwoHands& hand, const ModelPose& source, const ModelPose&
   return points;
 }
 
-/// The middle of what a hand is told by.
+/// Returns the mean of a hand's points.
 Vector3f mean(const std::array<Vector3f, CharacterFingers::kMostPoints + 1>& points, std::size_t count) noexcept {
   Vector3f sum = Vector3f::Zero();
   for (std::size_t i = 0; i < count; ++i) sum += points[i];
   return sum / static_cast<float>(count);
 }
 
-/// The way by which a hand whose wrist is at `goal` comes out of the body.
-Vector3f way_out(const Points& hand, const BodySurface& surface, const Vector3f& goal) noexcept {
-  Vector3f way = Vector3f::Zero();
-  // Each round takes the point that is deepest; once it is out another one may still be in.
+/// Returns the displacement that moves a hand with its wrist at `goal` out of the body.
+Vector3f hand_push_out(const Points& hand, const BodySurface& surface, const Vector3f& goal) noexcept {
+  Vector3f displacement = Vector3f::Zero();
+  // Each round moves the deepest point out; another one may still be inside afterwards.
   for (int round = 0; round < 3; ++round) {
-    Vector3f most = surface.way_out(goal + way, kWristRadius * surface.scale());
+    Vector3f most = surface.push_out(goal + displacement, kWristRadius * surface.scale());
     for (std::size_t i = 0; i < hand.count; ++i) {
-      const Vector3f one = surface.way_out(goal + way + hand.own[i], kFingerRadius * surface.scale());
+      const Vector3f one = surface.push_out(goal + displacement + hand.own[i], kFingerRadius * surface.scale());
       if (one.squaredNorm() > most.squaredNorm()) most = one;
     }
-    way += most;
+    displacement += most;
   }
-  return way;
+  return displacement;
 }
 
 }  // namespace
@@ -78,7 +78,7 @@ WristGoals wrist_goals(const PlacedBody& source, const std::optional<HeadSpace>&
     if (!hands[i]) continue;
     points[i] = points_of(*hands[i], *source.pose, *own.pose);
     const Points& hand = points[i];
-    // The palm's middle, as the hand's place is told elsewhere; with fingers, the middle of the hand's points.
+    // The centre of the palm, as the hand's position is defined elsewhere; with fingers, the mean of the hand's points.
     SignerSpace space = own.space;
     space.unit = source.space.unit * unit_ratio;
     const Vector3f place = space.to_model(source.space.to_signer(mean(hand.source, hand.count)));
@@ -105,7 +105,7 @@ WristGoals wrist_goals(const PlacedBody& source, const std::optional<HeadSpace>&
         goal += near * sum / weights;
       }
     }
-    goals.wrists[i] = goal + way_out(hand, surface, goal);
+    goals.wrists[i] = goal + hand_push_out(hand, surface, goal);
   }
 
   if (!goals.wrists[0] || !goals.wrists[1]) return goals;
@@ -135,7 +135,7 @@ WristGoals wrist_goals(const PlacedBody& source, const std::optional<HeadSpace>&
   const Vector3f missing = near * sum / weights;
   *goals.wrists[0] += 0.5f * missing;
   *goals.wrists[1] -= 0.5f * missing;
-  for (std::size_t i = 0; i < 2; ++i) *goals.wrists[i] += way_out(points[i], surface, *goals.wrists[i]);
+  for (std::size_t i = 0; i < 2; ++i) *goals.wrists[i] += hand_push_out(points[i], surface, *goals.wrists[i]);
   return goals;
 }
 
@@ -146,7 +146,7 @@ Vector3f out_of_body(const TwoHands& hand, const ModelPose& pose, const BodySurf
   for (std::size_t i = 0; i < hand.fingers->count(); ++i) {
     points.own[points.count++] = position_of(hand.fingers->point(i).own, pose) - wrist;
   }
-  return goal + way_out(points, surface, goal);
+  return goal + hand_push_out(points, surface, goal);
 }
 
 }  // namespace signweave

@@ -12,7 +12,7 @@
 
 namespace signweave {
 
-/// A body whose hands are placed: the source's, or the character's.
+/// A body in hand placement: the source's, or the character's.
 struct PlacedBody {
   const RigMap* rig = nullptr;
   const ModelPose* pose = nullptr;
@@ -20,24 +20,24 @@ struct PlacedBody {
   SignerSpace space;
 };
 
-/// Where the head is: the middle between the eyes and the head's axes.
+/// The head's space: the midpoint between the eyes and the head's axes.
 struct HeadSpace {
   Eigen::Vector3f eyes = Eigen::Vector3f::Zero();            ///< metres, model space
   Eigen::Quaternionf turn = Eigen::Quaternionf::Identity();  ///< model_from_head; x up, y to the signer's left
   float size = 1;                                            ///< metres, chin to top
 };
 
-/// The same hand of both bodies. The character's points are seen from its wrist, since that is what is yet to be
-/// placed.
+/// The same hand of both bodies. The character's points are relative to its wrist, whose position is still to be
+/// determined.
 struct TwoHands {
   const CharacterFingers* fingers = nullptr;
   JointIndex source_wrist = kNoJoint;
   JointIndex wrist = kNoJoint;
 };
 
-/// Where the character's wrists are to be so that its hands are where the source's are: in signer-centred space, beside
-/// the face in the face's own measure, where the two hands are near each other, each beside the other as there, and
-/// never within the body. `surface` lies as the character's pose does. Metres, model space. (ours)
+/// Target positions of the character's wrists at which its hands match the source's: in signer-centred space; near the
+/// face relative to the face's size; if the hands are near each other, with the same relative position; and never
+/// inside the body. `surface` must match the character's pose. Metres, model space. (ours)
 struct WristGoals {
   std::array<std::optional<Eigen::Vector3f>, 2> wrists;  ///< [Side]
 };
@@ -45,8 +45,8 @@ WristGoals wrist_goals(const PlacedBody& source, const std::optional<HeadSpace>&
                        const std::optional<HeadSpace>& own_head, const std::array<std::optional<TwoHands>, 2>& hands,
                        const BodySurface& surface, float unit_ratio) noexcept;
 
-/// `goal` of a character's wrist (metres, model space), moved out along the surface where a point of the hand lies in
-/// the body. `pose` is the character's.
+/// Returns `goal` of a character's wrist (metres, model space), moved out along the surface if a point of the hand is
+/// inside the body. `pose` is the character's.
 Eigen::Vector3f out_of_body(const TwoHands& hand, const ModelPose& pose, const BodySurface& surface,
                             const Eigen::Vector3f& goal) noexcept;
 

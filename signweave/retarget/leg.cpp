@@ -15,7 +15,7 @@ namespace {
 using Eigen::Quaternionf;
 using Eigen::Vector3f;
 
-/// A knee bent less than the first angle does not show its plane; above the second it does.
+/// Below the first angle a bent knee does not determine its plane; above the second it does.
 constexpr float kLegPlaneFrom = 12 * std::numbers::pi_v<float> / 180;
 constexpr float kLegPlaneTo = 40 * std::numbers::pi_v<float> / 180;
 
@@ -57,13 +57,13 @@ std::optional<CharacterLeg> CharacterLeg::make(const Character& character, const
   return leg;
 }
 
-void CharacterLeg::lay(const Skeleton& skeleton, const Vector3f& goal, ModelPose& pose) const noexcept {
+void CharacterLeg::solve(const Skeleton& skeleton, const Vector3f& goal, ModelPose& pose) const noexcept {
   const Quaternionf upper = pose.rotations[at(upper_.back())];
-  const TwoBones told = {upper * upper_axis_, pose.rotations[at(lower_.front())] * lower_axis_};
-  // The knee looks to where hips and toes look: some sources turn thighs about themselves at will.
+  const TwoBones source = {upper * upper_axis_, pose.rotations[at(lower_.front())] * lower_axis_};
+  // The knee points in the direction of hips and toes: some sources twist thighs arbitrarily.
   const Vector3f ahead = pose.rotations[at(pelvis_)] * pelvis_ahead_ + pose.rotations[at(foot_)] * foot_ahead_;
-  const Vector3f way = goal - pose.positions[at(upper_.front())];
-  const TwoBones bones = reach(told, upper_length_, lower_length_, way, -ahead);
+  const Vector3f displacement = goal - pose.positions[at(upper_.front())];
+  const TwoBones bones = reach(source, upper_length_, lower_length_, displacement, -ahead);
   const Vector3f level = across(ahead, bones.upper);
   const Vector3f plane = -across(bones.lower, bones.upper);
   const float bent = std::atan2(plane.norm(), bones.upper.dot(bones.lower));

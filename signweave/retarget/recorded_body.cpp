@@ -30,7 +30,8 @@ CharacterFinger finger_of(const RigMap& rig, const RigAxes& axes, Side side, Fin
     return finger;
   }
   for (std::size_t i = 0; i < 3; ++i) finger.joints[i] = rig[part(static_cast<FingerPoint>(i + 1))].joint;
-  // Bones of a finger: to the next joint, to the thumb's side, so the third axis is the palm's or the back's normal.
+  // Axes of a finger's bones: to the next joint, to the thumb's side, so the third is the normal of the palm or the
+  // back.
   finger.spread_axis = axes[proximal] * Vector3f::UnitZ();
   finger.flexion_axis = (side == Side::left ? 1.0f : -1.0f) * (axes[proximal] * Vector3f::UnitY());
   constexpr float kWhole = std::numbers::pi_v<float>;

@@ -12,20 +12,20 @@ namespace {
 using Eigen::Quaternionf;
 using Eigen::Vector3f;
 
-/// How far the character's signing space may differ from what its arms reach.
+/// The limits of the ratio between the character's signing space and the reach of its arms.
 constexpr float kLeastRatio = 0.88f;
 constexpr float kMostRatio = 1.14f;
-/// An arm that would be stretched beyond the first share of its length takes the source's own bend, wholly at the
+/// An arm that would be extended beyond the first fraction of its length takes the source's extension, fully at the
 /// second.
 constexpr float kStretchFrom = 0.90f;
 constexpr float kStretchTo = 1.0f;
-/// A foot that is nearer to its place than the first stays, metres; past the second it is put there.
+/// A foot closer to its goal than the first distance is not moved; beyond the second it is moved fully. Metres.
 constexpr float kFootFrom = 0.0005f;
 constexpr float kFootTo = 0.004f;
-/// Of a head from chin to top: where the eyes are above the head's joint, and how far before it. (Drillis and Contini's
-/// shares, and ours.)
-constexpr float kHeadTopOfJoint = 1.1f;  // chin to top, of joint to top
-constexpr float kHeadOfEyesToTop = 2;    // eyes are half way up a head
+/// Proportions of a head: the position of the eyes above and in front of the head's joint. (Drillis and Contini's
+/// proportions, and ours.)
+constexpr float kHeadTopOfJoint = 1.1f;  // chin to top, relative to joint to top
+constexpr float kHeadOfEyesToTop = 2;    // eyes are halfway up a head
 constexpr float kEyesUp = 0.45f;
 constexpr float kEyesForward = 0.40f;
 
@@ -36,7 +36,7 @@ float arm_length(const RigAxes& axes, const RigMap& rig, Side side) {
   return bone(axes, rig, of(side, Part::left_upper_arm), of(side, Part::left_forearm)) +
          bone(axes, rig, of(side, Part::left_forearm), of(side, Part::left_hand));
 }
-/// From the wrist over the middle finger's bones; of the index finger where there is no middle one.
+/// Returns the length from the wrist along the middle finger's bones; the index finger's if there is no middle one.
 float hand_length(const RigAxes& axes, const RigMap& rig, Side side) {
   for (const Finger finger : {Finger::middle, Finger::index}) {
     Part last = of(side, Part::left_hand);
@@ -52,7 +52,7 @@ float hand_length(const RigAxes& axes, const RigMap& rig, Side side) {
   return 0;
 }
 
-/// The head in the space of its joint.
+/// Returns the head in the space of its joint.
 std::optional<HeadSpace> head_space(const RigAxes& axes, const RigMap& rig) {
   if (!rig.has(Part::head)) return std::nullopt;
   HeadSpace head;
@@ -98,17 +98,17 @@ Retargeter::Retargeter(const Skeleton& source, const SignerModel& signer, const 
   const float source_legs = leg_length(source_axes_, signer_.rig);
   if (legs > 0.05f && source_legs > 0.05f) scale_ = legs / source_legs;
   for (const Side side : kSides) {
-    const bool told = signer_.rig.has(of(side, Part::left_thigh)) && signer_.rig.has(of(side, Part::left_shin)) &&
-                      signer_.rig.has(of(side, Part::left_foot));
-    if (told) legs_[static_cast<std::size_t>(side)] = CharacterLeg::make(character, axes_, side);
+    const bool known = signer_.rig.has(of(side, Part::left_thigh)) && signer_.rig.has(of(side, Part::left_shin)) &&
+                       signer_.rig.has(of(side, Part::left_foot));
+    if (known) legs_[static_cast<std::size_t>(side)] = CharacterLeg::make(character, axes_, side);
   }
   float arms = 0;
   float source_arms = 0;
   for (const Side side : kSides) {
     const auto i = static_cast<std::size_t>(side);
-    const bool told = signer_.rig.has(of(side, Part::left_upper_arm)) &&
-                      signer_.rig.has(of(side, Part::left_forearm)) && signer_.rig.has(of(side, Part::left_hand));
-    if (!told) continue;
+    const bool known = signer_.rig.has(of(side, Part::left_upper_arm)) &&
+                       signer_.rig.has(of(side, Part::left_forearm)) && signer_.rig.has(of(side, Part::left_hand));
+    if (!known) continue;
     if (options_.collar_share || !drives_.collar[i]) collars_[i] = CharacterCollar::make(character, axes_, side);
     arms_[i] = CharacterArm::make(character, axes_, side);
     if (!arms_[i]) continue;
@@ -123,7 +123,7 @@ Retargeter::Retargeter(const Skeleton& source, const SignerModel& signer, const 
     unit_ratio_ = std::clamp(character.body->shoulder_width / signer_.body->shoulder_width,
                              kLeastRatio * arms / source_arms, kMostRatio * arms / source_arms);
   } else if (options_.place_hands) {
-    notices_.push_back({.where = {}, .text = "no signing space: the arms follow the bones alone"});
+    notices_.push_back({.where = {}, .text = "no signing space: the arms follow only the bones' directions"});
     options_.place_hands = false;
   }
   head_ = head_space(axes_, rig);
@@ -132,7 +132,8 @@ Retargeter::Retargeter(const Skeleton& source, const SignerModel& signer, const 
     head_->eyes = character.eyes - axes_.place(Part::head);
     head_->size = kHeadOfEyesToTop * (character.height - character.eyes.y());
   }
-  // What nothing turns stands as it does against its parent, wherever that was laid. Collar bones are laid by the arm.
+  // Undriven joints keep their rotation relative to their parents, however those are posed. Clavicles are posed with
+  // the arm.
   for (std::size_t i = 0; i < character.skeleton->joint_count(); ++i) loose_.push_back(!drives_.joints[i].driven());
   for (const Side side : kSides) {
     const PartPlace& collar = rig[of(side, Part::left_clavicle)];
@@ -142,7 +143,7 @@ Retargeter::Retargeter(const Skeleton& source, const SignerModel& signer, const 
       loose_[at(joint)] = false;
     }
   }
-  // The soles of the character stand at y = 0 at rest; a source's ankles are as high for the length of its legs.
+  // The character's soles are at y = 0 at rest; a source's ankles are assumed to be equally high relative to its legs.
   if (rig.has(Part::left_foot)) ankle_ = axes_.place(Part::left_foot).y();
   source_ankle_ = ankle_ / scale_;
   to_model_space(source_, Pose(source_).view(), from_);
@@ -194,20 +195,20 @@ void Retargeter::put_root() noexcept {
   for (Vector3f& place : to_.positions) place += shift;
 }
 
-void Retargeter::lay_legs() noexcept {
+void Retargeter::solve_legs() noexcept {
   for (const Side side : kSides) {
     const std::optional<CharacterLeg>& leg = legs_[static_cast<std::size_t>(side)];
     if (!leg) continue;
     const Part foot = of(side, Part::left_foot);
     Vector3f goal = scale_ * position_of(signer_.rig[foot], from_);
     goal.y() = ankle_ + scale_ * (position_of(signer_.rig[foot], from_).y() - options_.ground - source_ankle_);
-    const Vector3f told = position_of(character_->rig[foot], to_);
-    const float weight = smooth_step((goal - told).norm(), kFootFrom, kFootTo);
-    leg->lay(*character_->skeleton, told + weight * (goal - told), to_);
+    const Vector3f current = position_of(character_->rig[foot], to_);
+    const float weight = smooth_step((goal - current).norm(), kFootFrom, kFootTo);
+    leg->solve(*character_->skeleton, current + weight * (goal - current), to_);
   }
 }
 
-void Retargeter::lay_arms() noexcept {
+void Retargeter::solve_arms() noexcept {
   const Skeleton& skeleton = *character_->skeleton;
   std::array<std::optional<TwoHands>, 2> hands;
   PlacedBody source = {&signer_.rig, &from_, signer_.body ? &*signer_.body : nullptr, {}};
@@ -219,7 +220,7 @@ void Retargeter::lay_arms() noexcept {
   for (const Side side : kSides) {
     const auto i = static_cast<std::size_t>(side);
     if (!arms_[i]) continue;
-    fingers_[i]->lay(skeleton, drives_, to_);
+    fingers_[i]->constrain(skeleton, drives_, to_);
     const Part wrist = of(side, Part::left_hand);
     const Quaternionf turn = to_.rotations[at(arms_[i]->wrist())] * axes_[wrist] * source_axes_[wrist].conjugate() *
                              from_.rotations[at(signer_.rig[wrist].joint)].conjugate();
@@ -238,19 +239,19 @@ void Retargeter::lay_arms() noexcept {
     const auto i = static_cast<std::size_t>(side);
     if (!arms_[i]) continue;
     if (goals.wrists[i]) {
-      // Out of reach the source's own stretch counts, so that the elbow does not jump.
+      // Out of reach, the source's own extension is used, so that the elbow does not jump.
       const Vector3f shoulder = to_.positions[at(arms_[i]->shoulder())];
-      const Vector3f way = *goals.wrists[i] - shoulder;
+      const Vector3f arm = *goals.wrists[i] - shoulder;
       const Vector3f shown = position_of(signer_.rig[of(side, Part::left_hand)], from_) -
                              position_of(signer_.rig[of(side, Part::left_upper_arm)], from_);
-      const float stretch = way.norm() / arms_[i]->length();
-      const float told = shown.norm() / std::max(arm_length(source_axes_, signer_.rig, side), 1e-3f);
-      const float weight = smooth_step(stretch, kStretchFrom, kStretchTo);
-      const float kept = (1 - weight) * std::min(stretch, 1.0f) + weight * std::min(told, 1.0f);
-      if (stretch > 1e-3f) *goals.wrists[i] = shoulder + way * (kept / stretch);
+      const float extension = arm.norm() / arms_[i]->length();
+      const float source_extension = shown.norm() / std::max(arm_length(source_axes_, signer_.rig, side), 1e-3f);
+      const float weight = smooth_step(extension, kStretchFrom, kStretchTo);
+      const float kept = (1 - weight) * std::min(extension, 1.0f) + weight * std::min(source_extension, 1.0f);
+      if (extension > 1e-3f) *goals.wrists[i] = shoulder + arm * (kept / extension);
       *goals.wrists[i] = out_of_body(*hands[i], to_, surface_, *goals.wrists[i]);
     }
-    arms_[i]->lay(skeleton, goals.wrists[i], {drives_.upper_twist[i], drives_.lower_twist[i]}, to_);
+    arms_[i]->solve(skeleton, goals.wrists[i], {drives_.upper_twist[i], drives_.lower_twist[i]}, to_);
   }
 }
 
@@ -266,14 +267,14 @@ void Retargeter::pose(PoseView source, MutablePoseView out) noexcept {
   to_model_space(source_, source, from_);
   turn_joints();
   put_root();
-  lay_legs();
+  solve_legs();
   surface_.place(to_);
-  // Shoulders that go along with an arm do not move the space in which hands are placed.
+  // Computed before the clavicles follow the arms, so that they do not move the space in which hands are placed.
   if (character_->body) space_ = signer_space(*character_->body, character_->rig, to_);
   for (const std::optional<CharacterCollar>& collar : collars_) {
-    if (collar) collar->lay(skeleton, to_);
+    if (collar) collar->apply(skeleton, to_);
   }
-  lay_arms();
+  solve_arms();
   bool finite = true;
   for (std::size_t i = 0; i < skeleton.joint_count(); ++i) {
     const JointIndex parent = skeleton.joints()[i].parent;

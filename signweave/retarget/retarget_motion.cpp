@@ -10,7 +10,7 @@ namespace {
 
 using Eigen::Quaternionf;
 
-/// Collar bones that turn less against the chest do not move, radians.
+/// Clavicles that rotate by less than this relative to the chest count as not moving, radians.
 constexpr float kStill = 0.035f;
 
 }  // namespace
@@ -51,7 +51,7 @@ float ground_of(const Motion& motion, const RigMap& rig) {
 
 RetargetOptions options_for(const Motion& motion, const SignerModel& signer, const Character& character) {
   RetargetOptions options{.face_joints = motion.tracks().empty(), .collar_share = !collars_move(motion, signer.rig)};
-  // An ankle stands above the floor by some of the leg, as the character's does.
+  // An ankle is above the floor by the same fraction of the leg as the character's.
   const RigAxes axes(motion.skeleton(), signer.rig);
   const RigAxes own(*character.skeleton, character.rig);
   const float legs = leg_length(own, character.rig);

@@ -26,7 +26,7 @@ std::size_t joint(const Skeleton& skeleton, const std::string& name) {
   return static_cast<std::size_t>(skeleton.find(name).value());
 }
 
-/// Somebody who signs: arms forward and bent, hands turned, fingers curled, more and less.
+/// A signing motion: arms forward and bent, hands rotated, fingers curled to varying degrees.
 Motion signing(std::shared_ptr<const Skeleton> skeleton, std::int64_t frames = 40) {
   Motion motion(std::move(skeleton), {30, 1}, frames);
   const Skeleton& own = motion.skeleton();
@@ -38,7 +38,7 @@ Motion signing(std::shared_ptr<const Skeleton> skeleton, std::int64_t frames = 4
     for (const float side : {1.0f, -1.0f}) {
       const std::string name = side > 0 ? "Left" : "Right";
       pose.rotations[joint(own, name + "Shoulder")] = AngleAxisf(side * 0.06f * wave, Vector3f::UnitZ());
-      // Down and forward, then the forearm up to the front, then the hand about the forearm.
+      // Rotate the arm down and forward, then the forearm up to the front, then the hand about the forearm.
       pose.rotations[joint(own, name + "Arm")] =
           AngleAxisf(side * (-0.9f + 0.2f * wave), Vector3f::UnitZ()) * AngleAxisf(side * -0.4f, Vector3f::UnitY());
       pose.rotations[joint(own, name + "ForeArm")] = AngleAxisf(side * (-1.2f + 0.3f * wave), Vector3f::UnitY());
@@ -56,7 +56,7 @@ Motion signing(std::shared_ptr<const Skeleton> skeleton, std::int64_t frames = 4
   return motion;
 }
 
-/// The pose in which arms hang, elbows and fingers are bent: another rest for the same body.
+/// A pose with hanging arms, bent elbows and fingers: another rest pose for the same body.
 Pose relaxed(const Skeleton& skeleton) {
   const Motion motion = signing(std::make_shared<const Skeleton>(skeleton), 9);
   Pose pose(motion.pose(8));
@@ -71,7 +71,7 @@ float angle_between(const Quaternionf& a, const Quaternionf& b) {
   return 2 * std::atan2((a.conjugate() * b).vec().norm(), std::abs((a.conjugate() * b).w())) / kDegree;
 }
 
-TEST(Retarget, OntoItselfChangesNothing) {
+TEST(Retarget, ToItselfChangesNothing) {
   const auto skeleton = with_twist(*whole_person(), {"LeftForeArm", "LeftHand", "RightForeArm", "RightHand"});
   const Character character = character_of(skeleton);
   Motion motion = signing(skeleton);
@@ -79,7 +79,7 @@ TEST(Retarget, OntoItselfChangesNothing) {
     motion.pose(frame).rotations[joint(*skeleton, "LeftHandTwist")] = AngleAxisf(0.3f, Vector3f::UnitX());
     motion.pose(frame).rotations[joint(*skeleton, "LeftForeArmTwist")] = AngleAxisf(0.2f, Vector3f::UnitX());
   }
-  // The body is the character's: measured over the motion its shoulders are a little narrower, since they move.
+  // Use the character's body: measured over the motion its shoulders are slightly narrower, because they move.
   const Motion made = retarget(motion, {.rig = character.rig, .body = character.body}, character).motion;
   ASSERT_EQ(made.frame_count(), motion.frame_count());
   for (std::int64_t frame = 0; frame < motion.frame_count(); ++frame) {
@@ -91,7 +91,7 @@ TEST(Retarget, OntoItselfChangesNothing) {
   }
 }
 
-TEST(Retarget, DoesNotDependOnThePoseAtRest) {
+TEST(Retarget, DoesNotDependOnTheRestPose) {
   const auto straight = whole_person();
   const Character character = character_of(rested_in(*straight, relaxed(*straight).view()));
   const Motion motion = signing(straight);
@@ -105,7 +105,7 @@ TEST(Retarget, DoesNotDependOnThePoseAtRest) {
   }
 }
 
-TEST(Retarget, KeepsPalmAndPlaceOnABodyOfOtherSize) {
+TEST(Retarget, KeepsPalmAndPositionOnABodyOfOtherSize) {
   const auto straight = whole_person();
   const auto small = whole_person(0.8f);
   const Character character = character_of(rested_in(*small, relaxed(*small).view()));
@@ -129,7 +129,7 @@ TEST(Retarget, KeepsPalmAndPlaceOnABodyOfOtherSize) {
   }
 }
 
-TEST(Retarget, SpreadsTheHandsTwistOverTheForearm) {
+TEST(Retarget, DistributesTheHandsTwistOverTheForearm) {
   const auto skeleton = with_twist(*whole_person(), {"LeftHand", "RightHand"});
   const Character character = character_of(skeleton);
   Motion motion(whole_person(), {30, 1}, 1);
@@ -145,10 +145,10 @@ TEST(Retarget, SpreadsTheHandsTwistOverTheForearm) {
   EXPECT_NEAR(about("LeftHand"), 80, 0.1);
 }
 
-TEST(Retarget, HandsThatTouchTouchOnOtherArms) {
+TEST(Retarget, TouchingHandsAlsoTouchOnOtherArms) {
   const auto straight = whole_person();
   Motion motion(straight, {30, 1}, 1);
-  // Both index fingers meet before the chest.
+  // Both index fingers meet in front of the chest.
   for (const float side : {1.0f, -1.0f}) {
     const std::string name = side > 0 ? "Left" : "Right";
     motion.pose(0).rotations[joint(*straight, name + "Arm")] = AngleAxisf(side * -0.75f, Vector3f::UnitY());
@@ -175,7 +175,7 @@ TEST(Retarget, HandsThatTouchTouchOnOtherArms) {
 TEST(Retarget, HandsStayOutOfTheChest) {
   const auto skeleton = whole_person();
   Motion motion(skeleton, {30, 1}, 30);
-  // The upper arm hangs; the forearm lies across the trunk, too near to it, and rises.
+  // The upper arm hangs; the forearm crosses the trunk, too close to it, and rises.
   const auto to = [](const Vector3f& way) { return Quaternionf::FromTwoVectors(Vector3f::UnitX(), way); };
   for (std::int64_t frame = 0; frame < 30; ++frame) {
     const MutablePoseView pose = motion.pose(frame);
@@ -197,7 +197,7 @@ TEST(Retarget, HandsStayOutOfTheChest) {
       float most = 0;
       for (const Finger finger : kFingers) {
         const PartPlace& tip = character.rig[finger_part(Side::left, finger, FingerPoint::tip)];
-        most = std::max(most, surface.way_out(position_of(tip, pose), 0.008f).norm());
+        most = std::max(most, surface.push_out(position_of(tip, pose), 0.008f).norm());
       }
       return most;
     };
@@ -208,7 +208,7 @@ TEST(Retarget, HandsStayOutOfTheChest) {
   EXPECT_LT(deepest, 0.002f);
 }
 
-TEST(Retarget, CollarBonesGoAlongWhereTheSourcesDoNotMove) {
+TEST(Retarget, ClaviclesFollowTheArmsIfTheSourcesDoNotMove) {
   const auto skeleton = whole_person();
   const Character character = character_of(skeleton);
   Motion motion(skeleton, {30, 1}, 2);
@@ -229,14 +229,14 @@ TEST(Retarget, CollarBonesGoAlongWhereTheSourcesDoNotMove) {
   EXPECT_LT(bone(made, 0, "Left").y(), 0.02f);
   EXPECT_GT(bone(made, 1, "Left").y(), std::sin(15 * kDegree));
   EXPECT_GT(bone(made, 1, "Right").z(), std::sin(10 * kDegree));
-  // A source whose collar bones move tells what they do.
+  // If the source's clavicles move, their movement is used.
   motion.pose(0).rotations[joint(*skeleton, "LeftShoulder")] = AngleAxisf(0.1f, Vector3f::UnitZ());
   made = retarget(motion, plain_model_of(motion), character).motion;
   EXPECT_NEAR(bone(made, 0, "Left").y(), std::sin(0.1f), 0.005f);
   EXPECT_NEAR(bone(made, 1, "Left").y(), 0, 0.005f);
 }
 
-/// The body with legs of two bones and feet; the thigh takes so much of the leg.
+/// The body with two-bone legs and feet; the thigh takes the given fraction of the leg.
 std::shared_ptr<const Skeleton> with_legs(const Skeleton& body, float thigh) {
   std::vector<Joint> joints(body.joints().begin(), body.joints().end());
   for (const std::string side : {"Left", "Right"}) {
@@ -263,11 +263,11 @@ RigMap rig_with_legs(const Skeleton& skeleton) {
   return rig;
 }
 
-TEST(Retarget, FeetStayWhereTheyStand) {
+TEST(Retarget, PlantedFeetDoNotSlide) {
   const auto skeleton = with_legs(*whole_person(), 0.5f);
   Character character = character_of(with_legs(*whole_person(0.9f), 0.6f));
   character.rig = rig_with_legs(*character.skeleton);
-  // The hips sway and sink over feet that stand still.
+  // The hips sway and sink over planted feet.
   Motion motion(skeleton, {30, 1}, 30);
   for (std::int64_t frame = 0; frame < 30; ++frame) {
     const MutablePoseView pose = motion.pose(frame);
@@ -293,7 +293,7 @@ TEST(Retarget, FeetStayWhereTheyStand) {
   }
 }
 
-TEST(Retarget, FingersKeepToTheirLimits) {
+TEST(Retarget, FingersStayWithinTheirLimits) {
   const auto skeleton = whole_person();
   Character character = character_of(skeleton);
   for (CharacterHand& hand : character.hands) {
@@ -310,7 +310,7 @@ TEST(Retarget, FingersKeepToTheirLimits) {
   EXPECT_NEAR(most, 0.6f, 0.02f);
 }
 
-TEST(Retarget, WhatIsMissingStaysAtRestAndIsTold) {
+TEST(Retarget, MissingPartsStayAtRestAndAreReported) {
   const Character character = character_of(whole_person());
   const Motion motion = signing(whole_person(1, false));
   const Retargeted made = retarget(motion, plain_model_of(motion), character);
@@ -321,7 +321,7 @@ TEST(Retarget, WhatIsMissingStaysAtRestAndIsTold) {
   EXPECT_LT(angle_between(made.motion.pose(3).rotations[index], Quaternionf::Identity()), 0.01f);
 }
 
-TEST(Retarget, NumbersThatAreNoneGiveTheRest) {
+TEST(Retarget, NonFiniteValuesGiveTheRestPose) {
   const Character character = character_of(whole_person());
   Motion motion = signing(whole_person(), 3);
   const SignerModel signer = plain_model_of(motion);
@@ -333,7 +333,7 @@ TEST(Retarget, NumbersThatAreNoneGiveTheRest) {
   }
 }
 
-TEST(Retarget, TracksPassByName) {
+TEST(Retarget, TracksArePassedThrough) {
   Motion motion = signing(whole_person(), 2);
   motion.add_track({"jawOpen", {0.25f, 0.5f}});
   const Motion made = retarget(motion, plain_model_of(motion), character_of(whole_person())).motion;

@@ -6,7 +6,7 @@
 namespace signweave {
 namespace {
 
-/// So many frames are read at a time.
+/// Number of frames read at a time.
 constexpr std::int64_t kFramesAtOnce = 32;
 
 }  // namespace
@@ -20,7 +20,8 @@ RetargetedSource::RetargetedSource(std::shared_ptr<const MotionSource> source,
 void RetargetedSource::read(FrameRange frames, MutablePoses out) const {
   const std::size_t joints = mapping_->skeleton->joint_count();
   const std::size_t moved = mapping_->skeleton->translation_count();
-  // Signs follow the frame before, at first the usual pose: so a frame mostly has the same sign whoever reads it.
+  // Quaternion signs follow the previous frame, initially the usual pose, so that a frame mostly has the same sign in
+  // every read.
   std::span<const Eigen::Quaternionf> before = mapping_->usual.rotations;
   for (std::int64_t begin = frames.begin; begin < frames.end; begin += kFramesAtOnce) {
     const std::int64_t count = std::min(kFramesAtOnce, frames.end - begin);

@@ -10,12 +10,12 @@
 
 namespace signweave {
 
-/// A recording's motion as it looks on another's skeleton: frame for frame, tracks as they are. A frame comes out the
-/// same whichever are read with it, up to the signs of quaternions. Belongs to one thread; reading allocates what the
-/// source's does, nothing more.
+/// A recording's motion retargeted to another's skeleton: frame by frame, with unchanged tracks. A frame is the same
+/// whichever frames are read with it, up to the signs of quaternions. Belongs to one thread; reading allocates only
+/// what the source's reading allocates.
 class RetargetedSource final : public MotionSource {
  public:
-  /// `mapping` is of the source's recording.
+  /// `mapping` must be for the source's recording.
   RetargetedSource(std::shared_ptr<const MotionSource> source, std::shared_ptr<const BodyMapping> mapping);
 
   const BodyMapping& mapping() const noexcept { return *mapping_; }

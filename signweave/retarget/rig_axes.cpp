@@ -14,11 +14,12 @@ namespace {
 using Eigen::Quaternionf;
 using Eigen::Vector3f;
 
-/// A trunk that stands nearly upright at rest is meant to stand upright: joints lie before and behind its middle.
+/// A trunk that is nearly upright at rest is assumed to be upright: its joints lie in front of and behind its centre
+/// line.
 constexpr float kUpright = 15 * kDegree;
-/// An elbow that is bent so much at rest shows the plane in which it bends.
+/// An elbow bent by more than this at rest determines the plane in which it bends.
 constexpr float kBent = 12 * kDegree;
-/// A collar bone that leaves the trunk so far from sideways lies in a space of its own.
+/// A clavicle that deviates from sideways by more than this uses a space of its own.
 constexpr float kSideways = 60 * kDegree;
 
 Vector3f across_main(const Vector3f& vector, const Vector3f& main) {
@@ -26,7 +27,7 @@ Vector3f across_main(const Vector3f& vector, const Vector3f& main) {
   return vector - vector.dot(axis) * axis;
 }
 
-/// The axis of space that is nearest, where it is near.
+/// Returns the nearest coordinate axis if it is close, else the direction itself.
 Vector3f snapped(const Vector3f& direction) {
   Eigen::Index most = 0;
   direction.cwiseAbs().maxCoeff(&most);
@@ -95,7 +96,8 @@ void RigAxes::take_leg(Side side) {
   const Vector3f up = trunk_ * Vector3f::UnitX();
   const Vector3f upper = place(shin) - place(thigh);
   const Vector3f lower = place(foot) - place(shin);
-  // Knees bend so that the shin goes back, and toes lie in front: they tell also where a leg has a space of its own.
+  // Knees bend so that the shin moves back, and toes are in front: they also determine the direction if a leg has a
+  // space of its own.
   Vector3f forward = trunk_ * -Vector3f::UnitZ();
   if (rig.has(toes) && across_main(place(toes) - place(foot), lower).norm() > 0.02f) {
     forward = across_main(place(toes) - place(foot), up);
@@ -137,7 +139,7 @@ void RigAxes::take_arm(Side side) {
       thumb_side = across_main(place(knuckle(Finger::thumb)) - *first, along);
   }
 
-  // An elbow bends to the thumb's side of a straight arm whose palm looks down or to the thigh.
+  // With a straight arm whose palm faces down or the thigh, the elbow bends to the thumb's side.
   Vector3f bend = across_main(lower, upper);
   if (angle(upper, lower) < kBent)
     bend = thumb_side.norm() > 1e-4f ? thumb_side : Vector3f(trunk_ * -Vector3f::UnitZ());
@@ -155,7 +157,7 @@ void RigAxes::take_arm(Side side) {
     const Vector3f bone = place(shoulder) - place(collar);
     const Vector3f out = (side == Side::left ? 1.0f : -1.0f) * (trunk_ * Vector3f::UnitY());
     lateral_[static_cast<std::size_t>(side)] = angle(bone, out) < kSideways;
-    // With the arm straight out and the elbow bending forward, this is up.
+    // With the arm stretched out and the elbow bending forward, this is up.
     const Vector3f up = side == Side::left ? bend.cross(upper) : upper.cross(bend);
     at(collar) =
         lateral_[static_cast<std::size_t>(side)] ? axes_along(bone, trunk_ * Vector3f::UnitX()) : axes_along(bone, up);
@@ -166,7 +168,7 @@ void RigAxes::take_arm(Side side) {
 
 void RigAxes::take_fingers(Side side, const Vector3f& palm, const Vector3f& thumb_side) {
   for (const Finger finger : kFingers) {
-    // A thumb bends half across the palm, half as the fingers do.
+    // A thumb flexes in a direction halfway between across the palm and that of the fingers.
     const Vector3f aside = finger == Finger::thumb ? Vector3f((thumb_side - palm).normalized()) : thumb_side;
     Vector3f bone = (*rig_).has(of(side, Part::left_hand))
                         ? Vector3f((*this)[of(side, Part::left_hand)] * Vector3f::UnitX())

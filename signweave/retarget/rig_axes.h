@@ -10,25 +10,25 @@
 
 namespace signweave {
 
-/// The turn whose x axis is `main` and whose y axis is as near to `side` as a right angle to `main` lets it be. Where
-/// `side` lies along `main`, any right angle.
+/// Returns the rotation whose x axis is `main` and whose y axis is the component of `side` perpendicular to it. If
+/// `side` is parallel to `main`, y is any perpendicular axis.
 Eigen::Quaternionf axes_along(const Eigen::Vector3f& main, const Eigen::Vector3f& side) noexcept;
 
-/// How a body's parts lie in the joints that play them: for each part axes with an anatomical meaning, in the joint's
-/// own space. Bodies of other bones and other rest poses agree in what they do where these axes agree in model space.
-/// Told from the offsets alone, so it holds for every pose (docs/retargeting.md).
+/// For each part of a body, axes with an anatomical meaning in the space of its joint. Bodies with different bones and
+/// rest poses have the same posture if these axes agree in model space. Derived from the offsets alone, so valid for
+/// every pose (docs/retargeting.md).
 class RigAxes {
  public:
   RigAxes(const Skeleton& skeleton, const RigMap& rig);
 
-  /// joint_from_part: turns the part's axes into the joint's. The identity where the part is not known.
+  /// joint_from_part: rotates the part's axes into the joint's. The identity if the part is unknown.
   const Eigen::Quaternionf& operator[](Part part) const noexcept { return axes_[static_cast<std::size_t>(part)]; }
-  /// The whole trunk's axes at rest: x up, y to the signer's left, so z is back.
+  /// The trunk's axes at rest: x up, y to the signer's left, so z is back.
   const Eigen::Quaternionf& trunk() const noexcept { return trunk_; }
-  /// Whether the collar bone leaves the trunk sideways at rest, as on a body. Where it does not, its own axes count,
-  /// else the trunk's.
+  /// Returns whether the clavicle points sideways from the trunk at rest, as in a real body. If so, the trunk's axes
+  /// are used for it, else its own.
   bool collar_is_lateral(Side side) const noexcept { return lateral_[static_cast<std::size_t>(side)]; }
-  /// Where the joints are while every rotation is the identity, metres.
+  /// The positions of the joints if every rotation is the identity, metres.
   const std::vector<Eigen::Vector3f>& places() const noexcept { return rest_.positions; }
   Eigen::Vector3f place(Part part) const { return position_of((*rig_)[part], rest_); }
 
@@ -46,7 +46,8 @@ class RigAxes {
   std::array<bool, 2> lateral_ = {true, true};
 };
 
-/// From the left hip over the knee to the ankle, metres; 0 where any is missing. Right and left are meant to be alike.
+/// Returns the length of the left leg from hip over knee to ankle, metres; 0 if any is missing. Right and left are
+/// assumed to be equal.
 float leg_length(const RigAxes& axes, const RigMap& rig);
 
 }  // namespace signweave

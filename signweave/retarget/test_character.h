@@ -1,6 +1,6 @@
 #pragma once
 
-// For tests: characters made by hand from small skeletons.
+// For tests: characters built by hand from small skeletons.
 
 #include <algorithm>
 #include <map>
@@ -17,7 +17,7 @@
 
 namespace signweave {
 
-/// The same body whose identity pose is `pose`: joints stand where they stand there, and no joint is turned.
+/// Returns the same body with `pose` as its identity pose: joints keep their positions, and no joint is rotated.
 inline std::shared_ptr<const Skeleton> rested_in(const Skeleton& skeleton, PoseView pose) {
   const ModelPose placed = to_model_space(skeleton, pose);
   std::vector<Joint> joints(skeleton.joints().begin(), skeleton.joints().end());
@@ -32,7 +32,8 @@ inline std::shared_ptr<const Skeleton> rested_in(const Skeleton& skeleton, PoseV
   return std::make_shared<const Skeleton>(std::move(joints), std::move(tips));
 }
 
-/// A joint half way to each named joint, which turns the rest of that bone: "LeftHand" gets "LeftHandTwist" before it.
+/// Adds a joint halfway to each named joint, which rotates the rest of that bone: "LeftHand" gets "LeftHandTwist"
+/// before it.
 inline std::shared_ptr<const Skeleton> with_twist(const Skeleton& skeleton, const std::vector<std::string>& before) {
   std::vector<Joint> joints;
   std::map<JointIndex, JointIndex> moved;
@@ -52,8 +53,8 @@ inline std::shared_ptr<const Skeleton> with_twist(const Skeleton& skeleton, cons
   return std::make_shared<const Skeleton>(std::move(joints), std::move(tips));
 }
 
-/// A character with wide limits from a skeleton with the names of `whole_person`. Fingers bend about z and spread
-/// about y, as a palm that looks down has it.
+/// Returns a character with wide limits from a skeleton with the names of `whole_person`. Fingers bend about z and
+/// spread about y, as in a palm that faces down.
 inline Character character_of(std::shared_ptr<const Skeleton> skeleton) {
   Character character;
   character.name = "made";
@@ -78,7 +79,7 @@ inline Character character_of(std::shared_ptr<const Skeleton> skeleton) {
   return character;
 }
 
-/// The model of a motion of such a skeleton.
+/// Returns the model of a motion of such a skeleton.
 inline SignerModel plain_model_of(const Motion& motion) {
   SignerModel model{.rig = rig_of_signer(motion.skeleton()), .body = {}};
   model.body = signer_body(motion, model.rig);

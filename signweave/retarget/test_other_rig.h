@@ -9,22 +9,22 @@
 #include "signweave/motion/motion.h"
 #include "signweave/retarget/test_character.h"
 
-/// For tests: the made signer's recordings as another lab would have captured another person.
+/// For tests: the synthetic signer's recordings as if another lab had captured another person.
 namespace signweave {
 
-/// How another rig differs.
+/// The differences of another rig.
 struct OtherRig {
   std::string prefix = "mixamorig:";  ///< before each joint's name
-  float arms = 0.93f;                 ///< lengths, of the made signer's
+  float arms = 0.93f;                 ///< lengths relative to the synthetic signer's
   float hands = 0.9f;
   float shoulders = 1.08f;
   float legs = 1.05f;
-  float lowered = 0.7f;  ///< radians by which the arms hang below the horizontal in the identity pose: an A-pose
-  float turned = 1.2f;   ///< radians about the vertical by which it looks aside
+  float lowered = 0.7f;  ///< radians by which the arms are below the horizontal in the identity pose: an A-pose
+  float turned = 1.2f;   ///< rotation of the body about the vertical, radians
 };
 
-/// The same joint angles on bones of other lengths, whose identity pose is another one: so no number of a pose is the
-/// same.
+/// Returns the same joint angles on bones of other lengths, with another identity pose, so that no value of a pose is
+/// the same.
 inline Motion on_other_rig(const Motion& motion, const OtherRig& how = {}) {
   std::vector<Joint> joints(motion.skeleton().joints().begin(), motion.skeleton().joints().end());
   std::vector<Tip> tips(motion.skeleton().tips().begin(), motion.skeleton().tips().end());
@@ -74,7 +74,7 @@ inline Motion on_other_rig(const Motion& motion, const OtherRig& how = {}) {
   return other;
 }
 
-/// The same motion below a root that stands still, as some programs write it: the old root moves below it.
+/// Returns the same motion below a root that does not move, as some programs write it: the old root moves below it.
 inline Motion below_a_still_root(const Motion& motion) {
   std::vector<Joint> joints = {{"Reference", kNoJoint, Eigen::Vector3f::Zero(), true}};
   for (Joint joint : motion.skeleton().joints()) {
@@ -95,7 +95,7 @@ inline Motion below_a_still_root(const Motion& motion) {
   return below;
 }
 
-/// The motion without some joints, and all that hang on them.
+/// Returns the motion without some joints and their descendants.
 inline Motion without_joints(const Motion& motion, const std::vector<std::string>& names) {
   const Skeleton& skeleton = motion.skeleton();
   std::vector<JointIndex> now(skeleton.joint_count(), kNoJoint);

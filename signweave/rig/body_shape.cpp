@@ -7,7 +7,7 @@
 namespace signweave {
 namespace {
 
-/// About the stature: the longest way through the body, from a hand to a foot, is a third longer.
+/// Approximates the stature: the longest path through the body, from a hand to a foot, is a third longer.
 float size_of(const BodyShape& shape) {
   float longest = 0;
   for (std::size_t joint = 0; joint < shape.children.size(); ++joint) {

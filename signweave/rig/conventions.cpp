@@ -7,7 +7,7 @@ namespace {
 
 using enum Part;
 
-// What MotionBuilder's HumanIK calls a character's joints; many exporters took these names over.
+// The joint names of MotionBuilder's HumanIK, which many exporters adopted.
 constexpr NameRow kMotionBuilder[] = {
     {pelvis, "Hips"},
     {spine, "Spine"},
@@ -36,7 +36,7 @@ constexpr FingerNames kRokokoFingers[] = {
     {"@InHand%", "- Index Middle Ring Pinky", "#"},
 };
 
-// The names of Biovision's own files, where a joint is called after itself: the shoulder is the arm's first joint.
+// The names in Biovision's own files, which name the joint itself: the shoulder is the arm's first joint.
 constexpr NameRow kBiovision[] = {
     {pelvis, "Hips"},
     {spine, "Chest Spine"},
@@ -88,7 +88,7 @@ constexpr NameRow kCmuMotionBuilder[] = {
     {left_hand, "@Hand"},    {left_thigh, "@UpLeg"},       {left_shin, "@Leg"},      {left_foot, "@Foot"},
     {left_toes, "@ToeBase"},
 };
-// One joint for the thumb, one for all other fingers, which is called after the index finger in one of them.
+// One joint for the thumb and one for all other fingers, which one of the conversions names after the index finger.
 constexpr FingerNames kCmuFingers[] = {
     {"@%", "thumb - - - -", "- # - - -"},
     {"@Hand%#", "- Index - - -", "- 1 - - -"},
@@ -116,7 +116,7 @@ constexpr FingerNames kUnrealFingers[] = {
     {"%_#_@", "thumb index middle ring pinky", "metacarpal 01 02 03 04"},
 };
 
-// VRM's humanoid bones, which are Unity's too; then as VRoid writes them, and with the side behind.
+// VRM's humanoid bones, which are also Unity's; then VRoid's spelling, and names with the side at the end.
 constexpr NameRow kVrm[] = {
     {pelvis, "hips C_Hips"},
     {spine, "spine C_Spine"},
@@ -139,7 +139,7 @@ constexpr FingerNames kVrmFingers[] = {
     {"@%#", "Thumb Index Middle Ring Little", "- 1 2 3 4"},
     {"%#_@", "Thumb Index Middle Ring Little", "- Proximal Intermediate Distal Tip"},
 };
-// Since 1.0 the thumb's joints are called one further out.
+// Since 1.0 the names of the thumb's joints are shifted outwards by one.
 constexpr FingerNames kVrm1Fingers[] = {
     {"@%#", "- Index Middle Ring Little", "- Proximal Intermediate Distal Tip"},
     {"@%#", "Thumb - - - -", "- Metacarpal Proximal Distal Tip"},
@@ -228,7 +228,7 @@ constexpr NameRow kDaz[] = {
     {left_toes, "@Toe"},
 };
 
-// The body model SMPL and its kin with hands, SMPL-X: joints called after themselves.
+// The body model SMPL and its variant with hands, SMPL-X: joints are named after themselves.
 constexpr NameRow kSmpl[] = {
     {pelvis, "pelvis"},
     {spine, "spine1"},

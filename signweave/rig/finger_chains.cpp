@@ -9,7 +9,7 @@ namespace {
 
 using Eigen::Vector3f;
 
-/// The joints beneath a wrist to one end, those of several ends left out.
+/// The joints from a wrist to one end; joints that lead to several ends are left out.
 struct Chain {
   std::vector<JointIndex> joints;
   bool ends = false;  ///< the last joint has a tip
@@ -24,17 +24,18 @@ std::vector<Chain> chains_of(const Skeleton& skeleton, const BodyShape& shape, J
   for (JointIndex joint = hand + 1; at(joint) < shape.children.size(); ++joint) {
     if (!shape.below(joint).empty() || !grows_from(skeleton, joint, hand)) continue;
     Chain chain{.joints = {}, .ends = shape.has_tip(joint)};
-    for (JointIndex on = joint; on != hand && leads_to_one(on); on = skeleton.joint(on).parent) {
-      chain.joints.insert(chain.joints.begin(), on);
+    for (JointIndex at_joint = joint; at_joint != hand && leads_to_one(at_joint);
+         at_joint = skeleton.joint(at_joint).parent) {
+      chain.joints.insert(chain.joints.begin(), at_joint);
     }
-    // A joint of the palm's, a prop, a point of no length: no finger.
+    // A joint of the palm, a prop or a point of no length is not a finger.
     if (chain.joints.size() < 2) continue;
     chains.push_back(std::move(chain));
   }
   return chains;
 }
 
-/// Where the finger leaves the palm: of four joints before an end the first is inside it.
+/// The joint at which the finger leaves the palm: of four joints before a tip, the first is inside the palm.
 JointIndex knuckle_of(const Chain& chain) {
   return chain.joints[chain.joints.size() > 3 && chain.ends ? chain.joints.size() - 3 : 0];
 }
@@ -69,13 +70,13 @@ std::vector<std::pair<Finger, FingerChain>> fingers_of(const Skeleton& skeleton,
                                                        JointIndex hand) {
   std::vector<Chain> chains = chains_of(skeleton, shape, hand);
   if (chains.size() < 4 || chains.size() > 5) return {};
-  // Where a finger leaves the palm; the thumb leaves it nearest to the wrist, and not along the others.
+  // Sorts by where each finger leaves the palm: the thumb does so nearest to the wrist, apart from the others.
   const Vector3f wrist = shape.place(hand);
   const auto knuckle = [&](const Chain& chain) { return shape.place(knuckle_of(chain)); };
   std::sort(chains.begin(), chains.end(),
             [&](const Chain& a, const Chain& b) { return (knuckle(a) - wrist).norm() < (knuckle(b) - wrist).norm(); });
   if ((knuckle(chains[0]) - wrist).norm() > 0.75f * (knuckle(chains[1]) - wrist).norm()) return {};
-  // The others by their distance from where the thumb's second joint is, which is beside the index finger.
+  // Sorts the others by their distance from the thumb's second joint, which is next to the index finger.
   const Vector3f thumb = shape.place(chains[0].joints[1]);
   std::sort(chains.begin() + 1, chains.end(),
             [&](const Chain& a, const Chain& b) { return (knuckle(a) - thumb).norm() < (knuckle(b) - thumb).norm(); });

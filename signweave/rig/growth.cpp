@@ -13,8 +13,8 @@ namespace {
 
 using enum Part;
 
-/// Drops each part that does not grow from the one before it.
-void keep_grown(const Skeleton& skeleton, std::initializer_list<Part> line, RigMap& map) {
+/// Drops each part that does not grow from the previous one.
+void drop_unconnected(const Skeleton& skeleton, std::initializer_list<Part> line, RigMap& map) {
   JointIndex above = kNoJoint;
   for (const Part part : line) {
     if (!map.has(part)) continue;
@@ -27,8 +27,8 @@ void keep_grown(const Skeleton& skeleton, std::initializer_list<Part> line, RigM
   }
 }
 
-/// Of a limb whose names come in an order that no limb has, no name is believed: which of them lies nobody knows.
-void keep_whole(const Skeleton& skeleton, std::initializer_list<Part> line, RigMap& map) {
+/// Drops all names of a limb if their order is impossible, because it is unknown which of them is wrong.
+void drop_unordered_limb(const Skeleton& skeleton, std::initializer_list<Part> line, RigMap& map) {
   const bool named =
       std::none_of(line.begin(), line.end(), [&](Part part) { return map[part].evidence == Evidence::file; });
   JointIndex above = kNoJoint;
@@ -39,35 +39,38 @@ void keep_whole(const Skeleton& skeleton, std::initializer_list<Part> line, RigM
     above = map[part].joint;
   }
   if (grown) return;
-  if (!named) return keep_grown(skeleton, line, map);
+  if (!named) return drop_unconnected(skeleton, line, map);
   for (const Part part : line) map[part] = {};
 }
 
 }  // namespace
 
-void drop_what_cannot_grow(const Skeleton& skeleton, RigMap& map) {
-  keep_grown(skeleton, {neck, head, head_top}, map);
-  keep_grown(skeleton, {head, jaw}, map);
+void drop_impossible_parts(const Skeleton& skeleton, RigMap& map) {
+  drop_unconnected(skeleton, {neck, head, head_top}, map);
+  drop_unconnected(skeleton, {head, jaw}, map);
   for (const Side side : kSides) {
-    keep_grown(skeleton, {head, of(side, left_eye)}, map);
-    keep_whole(skeleton,
-               {of(side, left_clavicle), of(side, left_upper_arm), of(side, left_forearm), of(side, left_hand)}, map);
-    keep_whole(skeleton, {of(side, left_thigh), of(side, left_shin), of(side, left_foot), of(side, left_toes)}, map);
+    drop_unconnected(skeleton, {head, of(side, left_eye)}, map);
+    drop_unordered_limb(
+        skeleton, {of(side, left_clavicle), of(side, left_upper_arm), of(side, left_forearm), of(side, left_hand)},
+        map);
+    drop_unordered_limb(skeleton, {of(side, left_thigh), of(side, left_shin), of(side, left_foot), of(side, left_toes)},
+                        map);
     for (const Finger finger : kFingers) {
       const auto point = [&](FingerPoint at) { return finger_part(side, finger, at); };
-      keep_whole(skeleton,
-                 {point(FingerPoint::proximal), point(FingerPoint::intermediate), point(FingerPoint::distal),
-                  point(FingerPoint::tip)},
-                 map);
-      // Some rigs let two fingers grow from one joint of the palm, so that is not asked of the others.
+      drop_unordered_limb(skeleton,
+                          {point(FingerPoint::proximal), point(FingerPoint::intermediate), point(FingerPoint::distal),
+                           point(FingerPoint::tip)},
+                          map);
+      // Some rigs let two fingers grow from one joint of the palm, so the metacarpal is not checked as part of the
+      // chain.
       for (std::size_t i = 0; i < kFingerPoints; ++i) {
-        keep_grown(skeleton, {of(side, left_hand), point(static_cast<FingerPoint>(i))}, map);
+        drop_unconnected(skeleton, {of(side, left_hand), point(static_cast<FingerPoint>(i))}, map);
       }
     }
   }
 }
 
-void require_grown(const Skeleton& skeleton, const RigMap& map) {
+void require_possible_parts(const Skeleton& skeleton, const RigMap& map) {
   const auto line = [&](std::initializer_list<Part> parts) {
     const PartPlace* above = nullptr;
     Part inner = pelvis;
@@ -76,8 +79,8 @@ void require_grown(const Skeleton& skeleton, const RigMap& map) {
       if (place.evidence != Evidence::file) continue;
       if (above != nullptr && !grows_from(skeleton, place.joint, above->joint)) {
         throw Error(ErrorCode::bad_input,
-                    fmt::format("{} = {} does not lie beyond {} = {}; parts are named from the trunk outwards",
-                                name_of(part), printable(skeleton.joint(place.joint).name), name_of(inner),
+                    fmt::format("{} = {} is not beyond {} = {}; parts are named from the trunk outwards", name_of(part),
+                                printable(skeleton.joint(place.joint).name), name_of(inner),
                                 printable(skeleton.joint(above->joint).name)));
       }
       above = &place;

@@ -4,11 +4,11 @@
 
 namespace signweave {
 
-/// Takes out of a map what names put where it cannot grow from what it grows from in a body: a hand that is not beyond
-/// its forearm. What a mapping file says stays.
-void drop_what_cannot_grow(const Skeleton& skeleton, RigMap& map);
+/// Removes parts from a map that names placed anatomically impossibly, such as a hand that is not beyond its forearm.
+/// Parts set by a mapping file stay.
+void drop_impossible_parts(const Skeleton& skeleton, RigMap& map);
 
-/// Throws Error{bad_input} where a mapping file puts a part of a limb, or the head, before the one that it grows from.
-void require_grown(const Skeleton& skeleton, const RigMap& map);
+/// Throws Error{bad_input} if a mapping file puts a part of a limb, or the head, before the part from which it grows.
+void require_possible_parts(const Skeleton& skeleton, const RigMap& map);
 
 }  // namespace signweave

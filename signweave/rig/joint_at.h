@@ -6,7 +6,7 @@
 
 namespace signweave {
 
-/// A joint as the place in lists of all joints; it must be one.
+/// The index of a joint in lists of all joints; it must not be kNoJoint.
 constexpr std::size_t at(JointIndex joint) {
   return static_cast<std::size_t>(joint);
 }

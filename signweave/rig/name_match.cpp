@@ -20,7 +20,7 @@ std::string plain(std::string_view name) {
   return text;
 }
 
-/// The longest text ending in a separator with which most names begin; a side's letter is none.
+/// The longest prefix ending in a separator that most names share; a side's letter does not count.
 std::string shared_prefix(const std::vector<std::string>& names) {
   std::map<std::string, std::size_t> counts;
   for (const std::string& name : names) {
@@ -59,7 +59,7 @@ std::string with(std::string_view pattern, char mark, std::string_view word) {
 
 struct Meaning {
   Part part;
-  std::size_t rank;  ///< 0: the best of the part's names
+  std::size_t rank;  ///< 0 is the best of the part's names
 };
 using Table = std::unordered_map<std::string, Meaning>;
 
@@ -167,7 +167,7 @@ NameMatch match_names(const Skeleton& skeleton) {
     const auto count = [&](auto begin, auto end) {
       return static_cast<std::size_t>(std::count_if(begin, end, [](JointIndex joint) { return joint != kNoJoint; }));
     };
-    // A limb says more than a finger, of which there are many.
+    // A limb counts more than a finger, of which there are many.
     const auto fingers = all[i].joints.begin() + static_cast<std::ptrdiff_t>(kNamedParts);
     const std::size_t score = 4 * count(all[i].joints.begin(), fingers) + count(fingers, all[i].joints.end()) +
                               (needs_mark && best_score > 0 ? 1 : 0);
@@ -176,9 +176,9 @@ NameMatch match_names(const Skeleton& skeleton) {
     best = all[i];
     best.convention = convention.name;
   }
-  // "Hips", "Spine" and "Head" alone are in many tables.
+  // "Hips", "Spine" and "Head" alone occur in many tables.
   if (best_score < 4 * 5) best.convention.clear();
-  // What the best table does not know another may, as long as no joint plays two parts.
+  // Another table may name a part that the best table lacks, as long as no joint plays two parts.
   std::vector<bool> used(names.size());
   for (const JointIndex joint : best.joints) {
     if (joint != kNoJoint) used[static_cast<std::size_t>(joint)] = true;

@@ -10,15 +10,15 @@
 
 namespace signweave {
 
-/// [joint] names as they are compared: lower case, without a namespace (`mixamorig:`), without what most of the joints
-/// begin with (`Character1_`, `Bip01 `), without separators.
+/// [joint] the names in the form in which they are compared: lower case, without a namespace (`mixamorig:`), without
+/// the prefix that most joints share (`Character1_`, `Bip01 `), without separators.
 std::vector<std::string> plain_names(const Skeleton& skeleton);
 
-/// What names alone say.
+/// The result of matching joint names only.
 struct NameMatch {
-  std::array<JointIndex, kPartCount> joints;  ///< kNoJoint where no name tells
-  std::string convention;                     ///< empty: no table fits
-  std::vector<Part> ambiguous;                ///< parts whose name several joints bear; the first was taken
+  std::array<JointIndex, kPartCount> joints;  ///< kNoJoint if no name matches
+  std::string convention;                     ///< empty if no table fits
+  std::vector<Part> ambiguous;                ///< parts whose name several joints have; the first joint was taken
 };
 NameMatch match_names(const Skeleton& skeleton);
 

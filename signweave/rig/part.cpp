@@ -34,7 +34,7 @@ constexpr std::array<std::string_view, kNamedParts> kNames = {
     "right_toes",
 };
 
-/// [part], fingers put together from side, finger and point.
+/// [part] the names; those of fingers are composed of side, finger and point.
 const std::vector<std::string>& names() {
   static const std::vector<std::string> list = [] {
     std::vector<std::string> all(kNames.begin(), kNames.end());

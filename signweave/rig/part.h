@@ -8,16 +8,16 @@
 
 namespace signweave {
 
-enum class Side : std::uint8_t { left = 0, right = 1 };  ///< of the signer
+enum class Side : std::uint8_t { left = 0, right = 1 };  ///< the signer's side
 inline constexpr std::array kSides = {Side::left, Side::right};
 
 enum class Finger : std::uint8_t { thumb = 0, index = 1, middle = 2, ring = 3, little = 4 };
 inline constexpr std::array kFingers = {Finger::thumb, Finger::index, Finger::middle, Finger::ring, Finger::little};
 
-/// The points of a finger, from the wrist out. A thumb has no metacarpal of its own here: its first joint is the one
-/// near the wrist (carpometacarpal), its second metacarpophalangeal, its third interphalangeal.
+/// The points of a finger, from the wrist outwards. A thumb has no separate metacarpal here: its first joint is the one
+/// near the wrist (carpometacarpal), its second the metacarpophalangeal, its third the interphalangeal.
 enum class FingerPoint : std::uint8_t {
-  metacarpal = 0,    ///< inside the palm; many rigs have none
+  metacarpal = 0,    ///< inside the palm; missing in many rigs
   proximal = 1,      ///< the knuckle, where the finger leaves the palm
   intermediate = 2,  ///< the second joint
   distal = 3,        ///< the third joint
@@ -25,8 +25,8 @@ enum class FingerPoint : std::uint8_t {
 };
 inline constexpr std::size_t kFingerPoints = 5;
 
-/// What a joint is of a body: each names the joint at which that part begins, so `left_forearm` is the left elbow and
-/// `left_hand` the left wrist. Stored on disk: never renumber. Fingers follow the named parts: `finger_part`.
+/// A part of the body, identified by the joint at which it begins: `left_forearm` is the left elbow and `left_hand` the
+/// left wrist. Stored on disk: never renumber. Fingers follow the named parts: see `finger_part`.
 enum class Part : std::uint8_t {
   pelvis = 0,
   spine = 1,  ///< the first joint above the pelvis that bends the trunk
@@ -53,7 +53,7 @@ enum class Part : std::uint8_t {
   right_foot = 22,
   left_toes = 23,
   right_toes = 24,
-  left_thumb_metacarpal = 25,  ///< then metacarpal … tip of the left thumb, index, …; then the right hand's
+  left_thumb_metacarpal = 25,  ///< then metacarpal … tip of the left thumb, index, …; then the right hand
 };
 inline constexpr std::size_t kNamedParts = 25;
 inline constexpr std::size_t kPartCount = kNamedParts + 2 * kFingers.size() * kFingerPoints;
@@ -63,13 +63,13 @@ constexpr Part finger_part(Side side, Finger finger, FingerPoint point) noexcept
   return static_cast<Part>(kNamedParts + row * kFingerPoints + static_cast<std::size_t>(point));
 }
 
-/// The one of two parts that belongs to a side: of(Side::right, Part::left_hand) is right_hand. `left` must be a left
-/// part among the named ones.
+/// The counterpart of `left` on a side: of(Side::right, Part::left_hand) is right_hand. `left` must be one of the named
+/// left parts.
 constexpr Part of(Side side, Part left) noexcept {
   return static_cast<Part>(static_cast<std::uint8_t>(left) + static_cast<std::uint8_t>(side));
 }
 
-/// "pelvis", "left_hand", "right_index_proximal", …: what mapping files and reports say.
+/// "pelvis", "left_hand", "right_index_proximal", …: the names used in mapping files and reports.
 std::string_view name_of(Part part) noexcept;
 std::optional<Part> part_named(std::string_view name) noexcept;
 

@@ -22,12 +22,12 @@ namespace {
 using Eigen::Vector3f;
 using enum Part;
 
-constexpr float kByBoth = 1.0f;        // name and shape say the same
-constexpr float kByName = 0.9f;        // the shape says nothing
-constexpr float kAgainstShape = 0.7f;  // the shape says another joint
+constexpr float kByBoth = 1.0f;        // name and shape agree
+constexpr float kByName = 0.9f;        // the shape is inconclusive
+constexpr float kAgainstShape = 0.7f;  // the shape indicates another joint
 constexpr float kByShape = 0.6f;
 constexpr float kFingerByShape = 0.5f;
-constexpr float kSideGuessed = 0.5f;  // times the rest
+constexpr float kSideGuessed = 0.5f;  // factor for the rest
 
 bool is_sided(Part part) {
   return part >= left_eye;
@@ -39,7 +39,7 @@ Side side_of(Part part) {
   return (number - static_cast<std::size_t>(left_eye)) % 2 == 0 ? Side::left : Side::right;
 }
 
-/// Puts a map together from what names, shape and a mapping file say.
+/// Builds a map from names, shape and a mapping file.
 class Mapper {
  public:
   Mapper(const Motion& motion, const RigNames& file)
@@ -57,7 +57,7 @@ class Mapper {
           .joint = names_.joints[i], .offset = Vector3f::Zero(), .evidence = Evidence::name, .confidence = kByName};
     }
     take_file();
-    drop_what_cannot_grow(skeleton_, map_);
+    drop_impossible_parts(skeleton_, map_);
     take_limbs();
     take_trunk();
     take_fingers();
@@ -69,13 +69,13 @@ class Mapper {
     for (const auto& [part, joint] : file_) {
       if (joint.empty()) map_[part] = {};
     }
-    tell();
+    add_notices();
     return std::move(map_);
   }
 
  private:
   void take_file() {
-    std::map<Part, JointIndex> told;
+    std::map<Part, JointIndex> placed_joints;
     for (const auto& [part, name] : file_) {
       if (name.empty()) {
         map_[part] = {};
@@ -88,22 +88,22 @@ class Mapper {
         throw Error(ErrorCode::not_found, fmt::format("{} = {}: the skeleton has no such joint{}", name_of(part),
                                                       printable(name), did_you_mean(name, known)));
       }
-      for (const auto& [other, place] : told) {
+      for (const auto& [other, place] : placed_joints) {
         if (place != *joint) continue;
         throw Error(ErrorCode::bad_input, fmt::format("{} and {} = {}: a joint plays one part; keep one of the lines",
                                                       name_of(other), name_of(part), printable(name)));
       }
-      told.emplace(part, *joint);
-      // A joint plays one part by name: the user's word counts.
+      placed_joints.emplace(part, *joint);
+      // A joint plays one part by name; the user's entry takes precedence.
       for (PartPlace& place : map_.places) {
         if (place.joint == *joint && place.evidence == Evidence::name) place = {};
       }
       map_[part] = {.joint = *joint, .offset = Vector3f::Zero(), .evidence = Evidence::file, .confidence = 1};
     }
-    require_grown(skeleton_, map_);
+    require_possible_parts(skeleton_, map_);
   }
 
-  /// A part that the shape tells. Names stand where they say something.
+  /// Sets a part that the shape indicates. A name, if there is one, takes precedence.
   void take(Part part, JointIndex joint, float confidence) {
     if (joint == kNoJoint) return;
     PartPlace& place = map_[part];
@@ -122,7 +122,7 @@ class Mapper {
     return said != file_.end() && said->second.empty();
   }
 
-  /// How much names say that a limb is the left one: above 0 left, below 0 right.
+  /// How clearly names mark a limb as the left one: above 0 left, below 0 right.
   int named_left(const Limb& limb) const {
     int sum = 0;
     for (std::size_t i = 0; i < kPartCount; ++i) {
@@ -135,21 +135,21 @@ class Mapper {
   }
 
   void take_limbs() {
-    bool told = false;
+    bool sides_named = false;
     for (std::vector<Limb>* limbs : {&body_.arms, &body_.legs}) {
       if (limbs->empty()) continue;
       const int first = named_left((*limbs)[0]);
       const int second = named_left((*limbs)[1]);
       if (first == second) continue;
-      told = true;
+      sides_named = true;
       if (first < second) std::swap((*limbs)[0], (*limbs)[1]);
     }
-    if (!told) {
+    if (!sides_named) {
       guess_sides();
     } else {
       match_sides();
     }
-    tell_shoulders_apart();
+    distinguish_shoulders();
     const float sure = sides_guessed_ ? kSideGuessed : 1.0f;
     for (const Side side : kSides) {
       const auto i = static_cast<std::size_t>(side);
@@ -170,8 +170,8 @@ class Mapper {
     }
   }
 
-  /// "Shoulder" is the collar bone to some and the arm's first joint to others: the bone after it tells.
-  void tell_shoulders_apart() {
+  /// "Shoulder" is the collar bone in some rigs and the arm's first joint in others: the next bone decides.
+  void distinguish_shoulders() {
     for (const Side side : kSides) {
       PartPlace& collar = map_[of(side, left_clavicle)];
       PartPlace& upper = map_[of(side, left_upper_arm)];
@@ -184,14 +184,14 @@ class Mapper {
     }
   }
 
-  /// Where names told one pair, the other pair's left is on the same side of the body.
+  /// If names identified one pair, the other pair's left is on the same side of the body.
   void match_sides() {
     if (body_.arms.empty() || body_.legs.empty()) return;
-    const bool arms_told = named_left(body_.arms[0]) != named_left(body_.arms[1]);
-    const bool legs_told = named_left(body_.legs[0]) != named_left(body_.legs[1]);
-    if (arms_told && legs_told) return;
+    const bool arms_named = named_left(body_.arms[0]) != named_left(body_.arms[1]);
+    const bool legs_named = named_left(body_.legs[0]) != named_left(body_.legs[1]);
+    if (arms_named && legs_named) return;
     if (across(body_.arms).dot(across(body_.legs)) >= 0) return;
-    std::vector<Limb>& other = arms_told ? body_.legs : body_.arms;
+    std::vector<Limb>& other = arms_named ? body_.legs : body_.arms;
     std::swap(other[0], other[1]);
   }
   Vector3f across(const std::vector<Limb>& limbs) const {
@@ -203,7 +203,7 @@ class Mapper {
     return sum;
   }
 
-  /// Without names the body tells: first as if the first arm were the left one.
+  /// Without names the body decides: first as if the first arm were the left one.
   void guess_sides() {
     if (body_.arms.empty()) return;
     if (!body_.legs.empty() && across(body_.arms).dot(across(body_.legs)) < 0) std::swap(body_.legs[0], body_.legs[1]);
@@ -229,7 +229,7 @@ class Mapper {
       }
     }
     float score = sides_score(side_cues(shape_, trial));
-    if (std::abs(score) < 0.2f) {  // it may look along z, as most do
+    if (std::abs(score) < 0.2f) {  // assume that it faces along z, as most bodies do
       sides_guessed_ = true;
       score = across(body_.arms).x();
     }
@@ -238,7 +238,7 @@ class Mapper {
     if (!body_.legs.empty()) std::swap(body_.legs[0], body_.legs[1]);
   }
 
-  /// The lowest joint from which both grow.
+  /// The lowest common ancestor.
   JointIndex fork(JointIndex a, JointIndex b) const {
     while (a != b) (a > b ? a : b) = skeleton_.joint(a > b ? a : b).parent;
     return a;
@@ -250,7 +250,7 @@ class Mapper {
     return kNoJoint;
   }
 
-  /// Chest and spine are told by what grows from them, whatever they are called.
+  /// Chest and spine are identified by what grows from them, whatever their names.
   void take_trunk() {
     take(pelvis, body_.pelvis, kByShape);
     take(head, body_.head, kByShape);
@@ -301,7 +301,7 @@ class Mapper {
     }
   }
 
-  /// Ends that are no joints of their own: points that move with the last joint.
+  /// Ends that are not joints: points that move with the last joint.
   void take_ends() {
     for (const Side side : kSides) {
       for (const Finger finger : kFingers) {
@@ -334,7 +334,7 @@ class Mapper {
     if (only >= 0) map_[end] = {only, Vector3f::Zero(), Evidence::structure, std::min(kByShape, from.confidence)};
   }
 
-  /// Where names say left and the body is right, the body counts.
+  /// If names contradict the body's sides, the body decides.
   void follow_the_body() {
     if (sides_guessed_) return;
     for (const auto& [part, joint] : file_) {
@@ -354,10 +354,10 @@ class Mapper {
     for (std::size_t i = kNamedParts; i < kNamedParts + kHand; ++i) std::swap(map_.places[i], map_.places[i + kHand]);
   }
 
-  void tell() {
+  void add_notices() {
     const auto say = [&](std::string text) { map_.notices.push_back({.where = {}, .text = std::move(text)}); };
     if (map_.convention.empty()) {
-      say("the joints' names fit no known convention: parts are told by shape; a mapping file mends what is wrong");
+      say("the joint names match no known convention: parts are identified by shape; a mapping file can correct them");
     }
     if (map_.sides_swapped) {
       map_.notices.push_back(
@@ -366,7 +366,8 @@ class Mapper {
                    "the body; read the motion mirrored if it is, or correct the names with a mapping file",
            .remedies = {{"mirror", "true"}}});
     }
-    if (sides_guessed_) say("left and right are guessed: nothing on the body tells; a mapping file does");
+    if (sides_guessed_)
+      say("left and right are guessed, because nothing on the body shows them; a mapping file can set them");
     for (const Part part : names_.ambiguous) {
       const JointIndex joint = names_.joints[static_cast<std::size_t>(part)];
       if (map_[part].joint != joint) continue;

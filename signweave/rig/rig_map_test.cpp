@@ -277,14 +277,14 @@ TEST(RigMap, KnowsTheNamesOfEachConvention) {
   }
 }
 
-TEST(RigMap, TellsTheSameBodyByItsShapeWithLessConfidence) {
+TEST(RigMap, IdentifiesTheSameBodyByShapeWithLessConfidence) {
   for (const Rig& rig : rigs()) {
     const Motion named = rig_body(rig.naming);
     const Motion nameless = renamed(named, "j");
     const RigMap by_name = map_rig(named);
     const RigMap by_shape = map_rig(nameless);
     EXPECT_EQ(by_shape.convention, "");
-    EXPECT_THAT(by_shape.notices, says("fit no known convention"));
+    EXPECT_THAT(by_shape.notices, says("match no known convention"));
     for (std::size_t i = 0; i < kPartCount; ++i) {
       const auto part = static_cast<Part>(i);
       EXPECT_EQ(by_shape[part].joint, by_name[part].joint) << rig.convention << ": " << name_of(part);
@@ -296,7 +296,7 @@ TEST(RigMap, TellsTheSameBodyByItsShapeWithLessConfidence) {
   }
 }
 
-TEST(RigMap, SaysWhereTheBodyIsTheOtherWayRound) {
+TEST(RigMap, ReportsSwappedSides) {
   RigNaming names = rigs()[0].naming;
   std::swap(names.left, names.right);
   const Motion motion = rig_body(names);
@@ -305,10 +305,10 @@ TEST(RigMap, SaysWhereTheBodyIsTheOtherWayRound) {
   EXPECT_EQ(joint_of(motion, map, left_hand), "RightHand") << "the map follows the body";
   EXPECT_EQ(joint_of(motion, map, finger_part(Side::left, Finger::index, FingerPoint::proximal)), "RightHandIndex1");
   EXPECT_THAT(map.notices, says("left and right are swapped"));
-  EXPECT_THAT(map.notices, AllOf(says("--mirror"), says("mapping file")));
+  EXPECT_THAT(map.notices, AllOf(says("read the motion mirrored"), says("mapping file")));
 }
 
-TEST(RigMap, TellsOfWhatIsMissing) {
+TEST(RigMap, ReportsMissingParts) {
   RigNaming handless = rigs()[0].naming;
   handless.fingers = {};
   EXPECT_THAT(map_rig(rig_body(handless)).notices, says("no fingers"));
@@ -318,7 +318,7 @@ TEST(RigMap, TellsOfWhatIsMissing) {
   EXPECT_THAT(upper.notices, says("no legs"));
   EXPECT_TRUE(upper.has(left_hand));
   EXPECT_TRUE(upper.has(pelvis));
-  // The right arm goes: its joints are the last but the legs'.
+  // Removes the right arm: its joints come last before those of the legs.
   const Motion whole = rig_body(handless);
   std::vector<Joint> joints;
   std::vector<JointIndex> kept(whole.skeleton().joint_count(), kNoJoint);
@@ -339,7 +339,7 @@ TEST(RigMap, TellsOfWhatIsMissing) {
   EXPECT_FALSE(map.has(right_hand));
 }
 
-TEST(RigMap, OneJointIsNoBodyAndNoFailure) {
+TEST(RigMap, ASingleJointIsNotABodyAndDoesNotFail) {
   const auto point =
       std::make_shared<const Skeleton>(std::vector<Joint>{{"a", kNoJoint, {0, 0, 0}, true}}, std::vector<Tip>{});
   const RigMap map = map_rig(Motion(point, {100, 1}, 1));
@@ -347,7 +347,7 @@ TEST(RigMap, OneJointIsNoBodyAndNoFailure) {
   EXPECT_THAT(map.notices, says("no body"));
 }
 
-TEST(RigMap, TakesTheFirstOfJointsOfOneNameAndSaysSo) {
+TEST(RigMap, TakesTheFirstOfJointsWithTheSameNameAndReportsIt) {
   const Motion motion = rig_body({.toes = "@Foot"});
   const RigMap map = map_rig(motion);
   EXPECT_THAT(map.notices, says("several joints are named LeftFoot: the first is taken as left_foot"));
@@ -355,7 +355,7 @@ TEST(RigMap, TakesTheFirstOfJointsOfOneNameAndSaysSo) {
   EXPECT_LT(map[left_foot].confidence, 1);
 }
 
-TEST(RigMap, NamesInAnOrderThatNoBodyHasAreNotBelieved) {
+TEST(RigMap, IgnoresNamesInAnImpossibleOrder) {
   const Motion motion = rig_body({.arm = "@Hand", .hand = "@Arm"});
   const RigMap map = map_rig(motion);
   for (const Side side : kSides) {
@@ -366,7 +366,7 @@ TEST(RigMap, NamesInAnOrderThatNoBodyHasAreNotBelieved) {
 }
 
 TEST(RigMap, DummyAndTwistJointsChangeNothing) {
-  // A joint without length before every other one, as exporters write them.
+  // Puts a joint without length before every other one, as exporters do.
   const Motion plain = rig_body(rigs()[0].naming);
   std::vector<Joint> joints;
   std::vector<JointIndex> places;
@@ -399,7 +399,7 @@ TEST(RigMap, DummyAndTwistJointsChangeNothing) {
   }
 }
 
-TEST(RigMap, AMappingFileHasTheLastWord) {
+TEST(RigMap, AMappingFileTakesPrecedence) {
   const Motion motion = rig_body(rigs()[0].naming);
   const RigMap map = map_rig(motion, {{left_hand, "LeftForeArm"}, {jaw, "Head"}, {neck, ""}});
   EXPECT_EQ(joint_of(motion, map, left_hand), "LeftForeArm");
@@ -418,9 +418,9 @@ TEST(RigMap, AMappingFileHasTheLastWord) {
 
 TEST(RigMap, ReadsAFewFramesOfALongMotion) {
   const Motion motion = rig_body(rigs()[0].naming, 12'000);
-  map_rig(motion);  // the tables are made once
+  map_rig(motion);  // the tables are built once
   auto least = std::chrono::steady_clock::duration::max();
-  for (int run = 0; run < 5; ++run) {  // the best of some: others run beside
+  for (int run = 0; run < 5; ++run) {  // the best of several runs, because other processes may run
     const auto begin = std::chrono::steady_clock::now();
     map_rig(motion);
     least = std::min(least, std::chrono::steady_clock::now() - begin);
@@ -432,7 +432,7 @@ TEST(RigMap, ReadsAFewFramesOfALongMotion) {
 #endif
 }
 
-RC_GTEST_PROP(RigMapProperty, AnySkeletonHasAMapOfItsOwnJoints, ()) {
+RC_GTEST_PROP(RigMapProperty, AMapOfAnySkeletonContainsOnlyItsJoints, ()) {
   const std::vector<std::string> words = {"Hips",        "Head", "LeftHand", "RightHand",      "LeftArm",
                                           "LeftForeArm", "Neck", "RightArm", "LeftHandIndex1", "LeftHandThumb1",
                                           "LeftUpLeg",   "x",    "",         "Spine"};

@@ -27,9 +27,9 @@ RigNames read_rig_names(const std::filesystem::path& path) {
     };
     if (number == 1 && line.starts_with("\xEF\xBB\xBF")) line.erase(0, 3);
     const std::string_view text = trimmed(line);
-    // A joint's name may hold a '#', so a comment is a line of its own or stands after a blank.
+    // A joint's name may contain a '#', so a comment is a separate line or follows a blank.
     if (text.empty() || text.front() == '#') continue;
-    if (text.find('\0') != std::string_view::npos) fail("no text: a mapping file has lines `part = joint`");
+    if (text.find('\0') != std::string_view::npos) fail("not a text file: a mapping file has lines `part = joint`");
     const std::size_t equals = text.find('=');
     if (equals == std::string_view::npos) {
       fail(fmt::format("expected `part = joint`, not \"{}\"", printable(text)));
@@ -44,7 +44,7 @@ RigNames read_rig_names(const std::filesystem::path& path) {
     }
     if (!part) fail(fmt::format("unknown part \"{}\"{}", printable(name), did_you_mean(name, known)));
     if (!names.emplace(*part, std::string(trimmed(joint))).second) {
-      fail(fmt::format("part \"{}\" comes twice; keep one line", name));
+      fail(fmt::format("part \"{}\" is given twice; keep one line", name));
     }
   }
   if (file.bad()) throw Error(ErrorCode::io, fmt::format("{}: cannot be read", path.string()));

@@ -44,19 +44,19 @@ std::string failure(const std::string& text) {
   return "no error";
 }
 
-TEST(RigNames, AreLinesOfPartAndJoint) {
+TEST(RigNames, AreReadFromLinesOfPartAndJoint) {
   const File file(
       "\xEF\xBB\xBF# a rig\r\nleft_hand = hand of the left\r\n\njaw =   # it has none\nchest=C#4 # trunk\n");
   const RigNames names = read_rig_names(file.path());
   EXPECT_EQ(names, (RigNames{{Part::left_hand, "hand of the left"}, {Part::jaw, ""}, {Part::chest, "C#4"}}));
 }
 
-TEST(RigNames, TellsWhereALineIsWrong) {
+TEST(RigNames, ReportsTheLineOfAnError) {
   EXPECT_THAT(failure("# one\nleft_hnad = a\n"),
               AllOf(HasSubstr(":2: unknown part \"left_hnad\""), HasSubstr("did you mean left_hand")));
-  EXPECT_THAT(failure("jaw = a\njaw = b\n"), HasSubstr(":2: part \"jaw\" comes twice"));
+  EXPECT_THAT(failure("jaw = a\njaw = b\n"), HasSubstr(":2: part \"jaw\" is given twice"));
   EXPECT_THAT(failure("jaw a\n"), HasSubstr(":1: expected `part = joint`"));
-  EXPECT_THAT(failure(std::string("jaw\0=a\n", 7)), HasSubstr(":1: no text"));
+  EXPECT_THAT(failure(std::string("jaw\0=a\n", 7)), HasSubstr(":1: not a text file"));
 }
 
 TEST(RigNames, ReadsTheExampleOfTheDocument) {
@@ -73,7 +73,7 @@ TEST(RigNames, ReadsTheExampleOfTheDocument) {
                              {Part::jaw, ""}}));
 }
 
-TEST(RigNames, TellsAFileThatIsNotThere) {
+TEST(RigNames, ReportsAMissingFile) {
   try {
     read_rig_names("/nowhere/rig.txt");
     FAIL() << "no error";
@@ -92,7 +92,7 @@ std::string refusal(const Motion& motion, const RigNames& names) {
   return "no error";
 }
 
-TEST(RigNames, AreRefusedWhereNoBodyFitsThem) {
+TEST(RigNames, AreRefusedIfNoBodyFitsThem) {
   const Motion motion = rig_body(RigNaming{}, 2);
   const RigMap map = map_rig(motion);
   const auto joint = [&](Part part) { return motion.skeleton().joint(map[part].joint).name; };
@@ -100,7 +100,7 @@ TEST(RigNames, AreRefusedWhereNoBodyFitsThem) {
               HasSubstr("a joint plays one part"));
   EXPECT_THAT(
       refusal(motion, {{Part::left_hand, joint(Part::left_forearm)}, {Part::left_forearm, joint(Part::left_hand)}}),
-      HasSubstr("does not lie beyond"));
+      HasSubstr("is not beyond"));
   EXPECT_EQ(
       refusal(motion, {{Part::left_hand, joint(Part::left_hand)}, {Part::left_forearm, joint(Part::left_forearm)}}),
       "no error");

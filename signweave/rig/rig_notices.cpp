@@ -11,10 +11,10 @@ using enum Part;
 
 constexpr std::string_view kSideNames[] = {"left", "right"};
 
-/// "no left arm" for a limb that is not there, "left arm without forearm" for one in part.
-void tell_limb(const RigMap& map, std::string_view limb, std::initializer_list<Part> left_parts,
-               std::vector<std::string>& out) {
-  std::vector<std::string> told[2];
+/// Reports missing parts: "one arm: no left arm" for a missing limb, "no left_forearm" for a part of one.
+void report_limb(const RigMap& map, std::string_view limb, std::initializer_list<Part> left_parts,
+                 std::vector<std::string>& out) {
+  std::vector<std::string> missing[2];
   bool whole[2];
   for (const Side side : kSides) {
     const auto i = static_cast<std::size_t>(side);
@@ -23,7 +23,7 @@ void tell_limb(const RigMap& map, std::string_view limb, std::initializer_list<P
       if (map.has(of(side, left))) {
         whole[i] = false;
       } else {
-        told[i].emplace_back(name_of(of(side, left)));
+        missing[i].emplace_back(name_of(of(side, left)));
       }
     }
   }
@@ -33,7 +33,7 @@ void tell_limb(const RigMap& map, std::string_view limb, std::initializer_list<P
   }
   for (std::size_t i = 0; i < 2; ++i) {
     if (whole[i]) out.push_back(fmt::format("one {0}: no {1} {0}", limb, kSideNames[i]));
-    if (!whole[i] && !told[i].empty()) out.push_back(fmt::format("no {}", fmt::join(told[i], ", no ")));
+    if (!whole[i] && !missing[i].empty()) out.push_back(fmt::format("no {}", fmt::join(missing[i], ", no ")));
   }
 }
 
@@ -43,7 +43,7 @@ std::size_t fingers_at(const RigMap& map, Side side) {
   }));
 }
 
-/// "no ring, little finger"; empty where all are there.
+/// Returns "no ring, little finger"; empty if all fingers are present.
 std::string missing_fingers(const RigMap& map, Side side) {
   if (fingers_at(map, side) == 0) return "no fingers";
   constexpr std::string_view kFingerNames[] = {"thumb", "index", "middle", "ring", "little"};
@@ -61,28 +61,28 @@ std::string missing_fingers(const RigMap& map, Side side) {
 std::vector<std::string> missing_parts(const RigMap& map) {
   const auto known = [](const PartPlace& place) { return place.known(); };
   if (std::none_of(map.places.begin(), map.places.end(), known)) {
-    return {"no body: neither names nor shape tell any part; a mapping file can"};
+    return {"no body: neither names nor shape identify any part; a mapping file can"};
   }
   std::vector<std::string> out;
   for (const Part part : {pelvis, chest, neck, head}) {
     if (!map.has(part)) out.push_back(fmt::format("no {}", name_of(part)));
   }
-  tell_limb(map, "arm", {left_upper_arm, left_forearm, left_hand}, out);
-  tell_limb(map, "leg", {left_thigh, left_shin, left_foot}, out);
+  report_limb(map, "arm", {left_upper_arm, left_forearm, left_hand}, out);
+  report_limb(map, "leg", {left_thigh, left_shin, left_foot}, out);
   const std::size_t fingers[] = {fingers_at(map, Side::left), fingers_at(map, Side::right)};
   const bool hands[] = {map.has(left_hand), map.has(right_hand)};
   if (fingers[0] + fingers[1] == 0) {
     if (hands[0] || hands[1]) out.emplace_back("no fingers");
     return out;
   }
-  const std::string told[] = {hands[0] ? missing_fingers(map, Side::left) : "",
-                              hands[1] ? missing_fingers(map, Side::right) : ""};
-  if (told[0] == told[1] && !told[0].empty()) {
-    out.push_back(fmt::format("both hands: {}", told[0]));
+  const std::string missing[] = {hands[0] ? missing_fingers(map, Side::left) : "",
+                                 hands[1] ? missing_fingers(map, Side::right) : ""};
+  if (missing[0] == missing[1] && !missing[0].empty()) {
+    out.push_back(fmt::format("both hands: {}", missing[0]));
     return out;
   }
   for (std::size_t i = 0; i < 2; ++i) {
-    if (!told[i].empty()) out.push_back(fmt::format("{} hand: {}", kSideNames[i], told[i]));
+    if (!missing[i].empty()) out.push_back(fmt::format("{} hand: {}", kSideNames[i], missing[i]));
   }
   return out;
 }

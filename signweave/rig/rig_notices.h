@@ -7,7 +7,7 @@
 
 namespace signweave {
 
-/// What a map lacks, a line each.
+/// The parts that a map lacks, one line each.
 std::vector<std::string> missing_parts(const RigMap& map);
 
 }  // namespace signweave

@@ -10,8 +10,8 @@ namespace {
 using Eigen::Vector3f;
 using enum Part;
 
-/// The body in one frame, by a map.
-struct Standing {
+/// The body in one frame, according to a map.
+struct PosedBody {
   const RigMap& map;
   const ModelPose& pose;
 
@@ -30,18 +30,18 @@ struct Standing {
     if ((high - low).norm() < 1e-4f) return std::nullopt;
     return (high - low).normalized();
   }
-  /// Where the body looks if the map's sides are right; by the given pair of joints.
+  /// The direction in which the body faces if the map's sides are right, from the given pair of joints.
   std::optional<Vector3f> forward(Part left) const {
     const std::optional<Vector3f> upwards = up();
     if (!upwards || !has(Side::left, left) || !has(Side::right, left)) return std::nullopt;
     const Vector3f across = at(Side::left, left) - at(Side::right, left);
-    const Vector3f way = across.cross(*upwards);
-    if (way.norm() < 0.3f * across.norm() || way.norm() < 1e-4f) return std::nullopt;
-    return way.normalized();
+    const Vector3f direction = across.cross(*upwards);
+    if (direction.norm() < 0.3f * across.norm() || direction.norm() < 1e-4f) return std::nullopt;
+    return direction.normalized();
   }
 };
 
-/// A mean of directions' cosines, weighed by how much they say.
+/// A weighted mean of direction cosines.
 struct Mean {
   double sum = 0;
   double weight = 0;
@@ -51,8 +51,8 @@ struct Mean {
   }
 };
 
-/// From the ankle to the end of the toes.
-void add_feet(const Standing& body, const BodyShape& shape, Mean& mean) {
+/// Adds the directions from the ankle to the end of the toes.
+void add_feet(const PosedBody& body, const BodyShape& shape, Mean& mean) {
   const auto forward = body.forward(left_thigh);
   if (!forward) return;
   for (const Side side : kSides) {
@@ -65,8 +65,8 @@ void add_feet(const Standing& body, const BodyShape& shape, Mean& mean) {
   }
 }
 
-/// Bent knees are before the line from hip to ankle, bent elbows behind that from shoulder to wrist.
-void add_bend(const Standing& body, Part from, Part middle, Part to, float ahead, Mean& mean) {
+/// Bent knees are in front of the line from hip to ankle, bent elbows behind that from shoulder to wrist.
+void add_bend(const PosedBody& body, Part from, Part middle, Part to, float ahead, Mean& mean) {
   const auto forward = body.forward(from);
   if (!forward) return;
   for (const Side side : kSides) {
@@ -80,20 +80,20 @@ void add_bend(const Standing& body, Part from, Part middle, Part to, float ahead
   }
 }
 
-void add_face(const Standing& body, Mean& mean) {
+void add_face(const PosedBody& body, Mean& mean) {
   const auto forward = body.forward(left_upper_arm);
   if (!forward || !body.has(head)) return;
   const Vector3f up = *body.up();
   for (const Part part : {left_eye, right_eye, jaw}) {
     if (!body.has(part)) continue;
-    Vector3f way = body.at(part) - body.at(head);
-    way -= way.dot(up) * up;
-    if (way.norm() > 1e-3f) mean.add(way.normalized().dot(*forward), 1);
+    Vector3f direction = body.at(part) - body.at(head);
+    direction -= direction.dot(up) * up;
+    if (direction.norm() > 1e-3f) mean.add(direction.normalized().dot(*forward), 1);
   }
 }
 
-/// A right hand with its fingers up and its palm towards the viewer has the thumb to the viewer's right.
-void add_hands(const Standing& body, Mean& mean) {
+/// On a right hand with fingers up and palm towards the viewer, the thumb is on the viewer's right.
+void add_hands(const PosedBody& body, Mean& mean) {
   for (const Side side : kSides) {
     const auto knuckle = [&](Finger finger) { return finger_part(side, finger, FingerPoint::proximal); };
     const Part index = knuckle(Finger::index);
@@ -102,7 +102,7 @@ void add_hands(const Standing& body, Mean& mean) {
     const Vector3f wrist = body.at(side, left_hand);
     const Vector3f thumbwards = body.at(index) - body.at(little);
     const Vector3f along = 0.5f * (body.at(index) + body.at(little)) - wrist;
-    const Vector3f back = along.cross(thumbwards);  // of a right hand out of its back, of a left one out of its palm
+    const Vector3f back = along.cross(thumbwards);  // points out of a right hand's back and out of a left hand's palm
     if (back.norm() < 1e-7f) continue;
     for (const Finger finger : {Finger::index, Finger::middle, Finger::ring, Finger::little}) {
       const Part from = knuckle(finger);
@@ -122,7 +122,7 @@ void add_hands(const Standing& body, Mean& mean) {
 std::vector<SideCue> side_cues(const BodyShape& shape, const RigMap& map) {
   Mean feet, knees, face, elbows, hands;
   for (const ModelPose& pose : shape.poses) {
-    const Standing body{map, pose};
+    const PosedBody body{map, pose};
     add_feet(body, shape, feet);
     add_bend(body, left_thigh, left_shin, left_foot, 1, knees);
     add_face(body, face);
@@ -146,7 +146,7 @@ float sides_score(const std::vector<SideCue>& cues) {
   float sum = 0;
   float weight = 0;
   for (const SideCue& cue : cues) {
-    // Elbows go everywhere, so they speak softly.
+    // Elbows move in all directions, so they count less.
     const float counts = cue.what == "elbows" ? 0.3f : 1.0f;
     sum += counts * cue.score;
     weight += counts;

@@ -9,17 +9,18 @@
 
 namespace signweave {
 
-/// One thing on the body that tells left from right.
+/// A feature of the body that distinguishes left from right.
 struct SideCue {
   std::string_view what;  ///< "the feet point forward", …
-  float score = 0;        ///< in [-1, 1]: 1 the sides are as the map has them, -1 they are the other way round
+  float score = 0;        ///< in [-1, 1]: 1 if the map's sides are right, -1 if they are swapped
 };
 
-/// What tells left from right in the captured frames, given a map. Feet, knees, eyes and jaw tell where the body looks,
-/// bent elbows too; fingers bend towards the palm, and with the thumb's side that makes a left or a right hand.
+/// The cues that distinguish left from right in the captured frames, given a map. Feet, knees, eyes, jaw and bent
+/// elbows show which direction the body faces; fingers bend towards the palm, which together with the thumb's side
+/// identifies a left or right hand.
 std::vector<SideCue> side_cues(const BodyShape& shape, const RigMap& map);
 
-/// All cues together, in [-1, 1]; 0 where nothing tells.
+/// All cues combined, in [-1, 1]; 0 if no cue is conclusive.
 float sides_score(const std::vector<SideCue>& cues);
 
 }  // namespace signweave

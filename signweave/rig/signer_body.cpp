@@ -11,25 +11,25 @@ namespace {
 using Eigen::Quaternionf;
 using Eigen::Vector3f;
 
-// Heights above the ground as shares of the stature (Drillis and Contini 1966, as in Winter 2009, figure 4.1).
+// Heights above the ground as fractions of the stature (Drillis and Contini 1966, as in Winter 2009, figure 4.1).
 constexpr float kHip = 0.530f;
 constexpr float kShoulder = 0.818f;
 constexpr float kChin = 0.870f;
 constexpr float kEye = 0.936f;
 constexpr float kArm = 0.186f + 0.146f;  // upper arm and forearm
-/// Between the shoulders' joints of common rigs, which lie nearer together than a body is broad. (ours)
+/// Between the shoulder joints of common rigs, which are closer together than a body is broad. (ours)
 constexpr float kShoulders = 0.21f;
-/// Of the trunk, from pelvis to neck: joints nearer together than that are no shoulders. In real rigs they lie at half
-/// of it and more apart. (ours)
+/// Fraction of the trunk from pelvis to neck: joints closer together than that are not shoulders. In real rigs they are
+/// at least half of it apart. (ours)
 constexpr float kNarrowest = 0.2f;
 
-// Where the borders lie between the landmarks. (ours)
+// The borders between the landmarks. (ours)
 constexpr float kChestOfTrunk = 0.5f;     // up from the hips
 constexpr float kShoulderOfTrunk = 0.8f;  // the same: the armpits
-constexpr float kChinOfFace = -0.2f;      // up from the chin to the eyes: the throat's upper end is chin, too
+constexpr float kChinOfFace = -0.2f;      // up from the chin to the eyes: the throat's upper end counts as chin
 constexpr float kMouthOfFace = 0.25f;     // the same: below the lower lip
 constexpr float kNearOfArm = 0.65f;       // a bent forearm and half a palm
-constexpr float kLeast = 0.02f;           // between two borders, shoulder widths
+constexpr float kLeast = 0.02f;           // minimum between two borders, shoulder widths
 
 float median(std::vector<float>& values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
@@ -37,7 +37,7 @@ float median(std::vector<float>& values) {
   return *middle;
 }
 
-/// Median over the poses of what `measure` says of one; 0 for none.
+/// The median over the poses of a measurement; 0 if there is none.
 template <typename Measure>
 float median_over(std::span<const ModelPose> poses, Measure&& measure) {
   std::vector<float> values;
@@ -59,14 +59,14 @@ std::vector<ModelPose> sampled_poses(const Motion& motion) {
   return poses;
 }
 
-/// The lowest joint above (or at) both.
+/// The lowest common ancestor of both, or one of them.
 JointIndex common_joint(const Skeleton& skeleton, JointIndex a, JointIndex b) {
   while (a != b) (a > b ? a : b) = skeleton.joint(std::max(a, b)).parent;
   return a;
 }
 
-/// How the signer's axes stand in the trunk's space: the mean over the poses, those counting most in which the
-/// shoulders lie far apart on the ground.
+/// The orientation of the signer's axes in the trunk's space: the mean over the poses, weighted by how far apart the
+/// shoulders are on the ground.
 Quaternionf trunk_from_signer(std::span<const ModelPose> poses, const RigMap& rig, JointIndex trunk) {
   Eigen::Vector4f sum = Eigen::Vector4f::Zero();
   for (const ModelPose& pose : poses) {
@@ -102,7 +102,7 @@ float arm_length(std::span<const ModelPose> poses, const RigMap& rig, float widt
   return arms == 0 ? 0 : sum / static_cast<float>(arms) / width;
 }
 
-/// Heights of the body's landmarks above the shoulders, shoulder widths.
+/// Heights of the body's landmarks above the shoulders, in shoulder widths.
 struct Landmarks {
   float hip, chin, eye, top;
 };
@@ -113,7 +113,7 @@ Landmarks landmarks(std::span<const ModelPose> poses, const RigMap& rig, float w
         0.5f * (position_of(rig[Part::left_upper_arm], pose) + position_of(rig[Part::right_upper_arm], pose));
     return (point.y() - middle.y()) / width;
   };
-  // The mean of those parts that are known; none, or nowhere near where people have it, is no landmark.
+  // The mean of the known parts; parts far from the usual height of a human body are not landmarks.
   const auto find = [&](std::initializer_list<Part> parts, float usual) -> std::optional<float> {
     float sum = 0;
     int known = 0;
@@ -134,7 +134,7 @@ Landmarks landmarks(std::span<const ModelPose> poses, const RigMap& rig, float w
   if (!hip) hip = find({Part::left_thigh, Part::right_thigh}, usual(kHip));
   const std::optional<float> top = find({Part::head_top}, usual(1));
   const std::optional<float> eye = find({Part::left_eye, Part::right_eye}, usual(kEye));
-  const std::optional<float> head = find({Part::head}, usual(0.88f));  // the joint lies between chin and mouth
+  const std::optional<float> head = find({Part::head}, usual(0.88f));  // the joint is between chin and mouth
   found.hip = hip.value_or(usual(kHip));
   if (eye) {
     found.eye = *eye;
@@ -162,7 +162,7 @@ std::array<float, 8> borders(const Landmarks& at) {
   return heights;
 }
 
-/// From pelvis to neck (else head), metres; 0 where the map does not tell.
+/// From pelvis to neck (else head), metres; 0 if the map lacks them.
 float trunk_length(std::span<const ModelPose> poses, const RigMap& rig) {
   const Part top = rig.has(Part::neck) ? Part::neck : Part::head;
   if (!rig.has(Part::pelvis) || !rig.has(top)) return 0;
@@ -184,7 +184,7 @@ std::optional<SignerBody> signer_body(const Motion& motion, const RigMap& rig) {
   if (!(body.shoulder_width > 1e-6f) || body.shoulder_width < kNarrowest * trunk_length(poses, rig))
     return std::nullopt;
   body.arm_length = arm_length(poses, rig, body.shoulder_width);
-  // An arm tells the stature better than the shoulders' joints do, unless it is no arm.
+  // An arm indicates the stature better than the shoulder joints do, unless its length is implausible.
   const bool likely_arm = body.arm_length > 0.7f && body.arm_length < 3.5f;
   const float stature = likely_arm ? body.arm_length / kArm : 1 / kShoulders;
   if (!likely_arm) body.arm_length = kArm * stature;

@@ -17,17 +17,18 @@ constexpr std::array<std::string_view, 8> kHeightNames = {"below_waist", "waist"
 constexpr std::array<std::string_view, 3> kAcrossNames = {"left", "centre", "right"};
 constexpr std::array<std::string_view, 2> kReachNames = {"near", "far"};
 
-// How much of a shoulder width the shoulders must lie apart on the ground for their line to count, and to count alone.
+// The fractions of a shoulder width by which the shoulders must be apart on the ground for their line to count, and to
+// count alone.
 constexpr float kNoDirection = 0.2f;
 constexpr float kFullDirection = 0.5f;
 
-/// 0 below `from`, 1 above `to`, smooth between.
+/// 0 below `from`, 1 above `to`, smooth in between.
 float smooth_step(float value, float from, float to) {
   const float t = std::clamp((value - from) / (to - from), 0.0f, 1.0f);
   return t * t * (3 - 2 * t);
 }
 
-/// Unit, or zero where there is no direction.
+/// A unit vector, or zero if there is no direction.
 Vector2f direction(const Vector2f& vector) {
   const float length = vector.norm();
   return length > 1e-6f ? Vector2f(vector / length) : Vector2f::Zero();
@@ -66,7 +67,7 @@ SignerSpace signer_space(const SignerBody& body, const RigMap& rig, const ModelP
   const float weight = smooth_step(across.norm() / body.shoulder_width, kNoDirection, kFullDirection);
   Vector2f turn = weight * direction(across);
   if (weight < 1 && body.trunk != kNoJoint) {
-    // The turn about the vertical that comes nearest to the whole turn of the trunk: from its left and its forward.
+    // The turn about the vertical that is nearest to the whole rotation of the trunk, from its left and forward axes.
     const Quaternionf axes = pose.rotations[static_cast<std::size_t>(body.trunk)] * body.trunk_from_signer;
     const Vector3f x = axes * Vector3f::UnitX();
     const Vector3f z = axes * Vector3f::UnitZ();

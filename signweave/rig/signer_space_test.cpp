@@ -18,8 +18,8 @@ using Eigen::Vector3f;
 
 constexpr float kDegree = std::numbers::pi_v<float> / 180;
 
-/// A motion with its map, body and the space of one of its frames.
-struct Somebody {
+/// A motion with its rig map, body and the space of one of its frames.
+struct PosedPerson {
   Motion motion = Motion(whole_person(), {60, 1}, 1);
   RigMap rig = rig_of_signer(motion.skeleton());
 
@@ -38,9 +38,9 @@ float heading(const SignerSpace& space) {
   return std::atan2(-x.z(), x.x());
 }
 
-TEST(SignerSpaceOf, LiesBetweenTheShouldersWithTheirDistanceAsUnit) {
-  const Somebody somebody;
-  const SignerSpace space = somebody.space(somebody.body());
+TEST(SignerSpaceOf, IsBetweenTheShouldersWithTheirDistanceAsUnit) {
+  const PosedPerson person;
+  const SignerSpace space = person.space(person.body());
   EXPECT_LT((space.origin - Vector3f(0, 1.38f, 0)).norm(), 1e-5f);
   EXPECT_NEAR(space.unit, 0.36f, 1e-5f);
   EXPECT_LT((space.to_signer({0.18f, 1.38f, 0}) - Vector3f(0.5f, 0, 0)).norm(), 1e-5f);  // the left shoulder
@@ -48,14 +48,14 @@ TEST(SignerSpaceOf, LiesBetweenTheShouldersWithTheirDistanceAsUnit) {
   EXPECT_LT((space.to_model(space.to_signer({0.1f, 0.2f, 0.3f})) - Vector3f(0.1f, 0.2f, 0.3f)).norm(), 1e-5f);
 }
 
-RC_GTEST_PROP(SignerSpaceOf, GoesWithTheBodyWhereverItStandsAndFaces, ()) {
+RC_GTEST_PROP(SignerSpaceOf, FollowsTheBodysPositionAndHeading, ()) {
   const unsigned seed = *rc::gen::inRange(0U, 1000U);
   const float turn = kDegree * static_cast<float>(*rc::gen::inRange(-180, 180));
   const Vector3f shift(static_cast<float>(*rc::gen::inRange(-50, 50)) / 10, 0.2f,
                        static_cast<float>(*rc::gen::inRange(-50, 50)) / 10);
-  Somebody here;
+  PosedPerson here;
   here.motion = moving(whole_person(), 3, seed);
-  Somebody there = here;
+  PosedPerson there = here;
   there.motion = placed(here.motion, turn, shift);
   const Vector3f place(0.3f, 1.2f, 0.4f);
   const Vector3f moved = AngleAxisf(turn, Vector3f::UnitY()) * place + shift;
@@ -64,35 +64,35 @@ RC_GTEST_PROP(SignerSpaceOf, GoesWithTheBodyWhereverItStandsAndFaces, ()) {
   RC_ASSERT((a - b).norm() < 1e-4f);
 }
 
-TEST(SignerSpaceOf, StaysUprightWhereTheTrunkLeans) {
-  Somebody somebody;
-  const SignerBody body = somebody.body();
-  somebody.turn("Spine", Quaternionf(AngleAxisf(40 * kDegree, Vector3f::UnitX())));
-  const SignerSpace space = somebody.space(body);
+TEST(SignerSpaceOf, StaysUprightWhenTheTrunkLeans) {
+  PosedPerson person;
+  const SignerBody body = person.body();
+  person.turn("Spine", Quaternionf(AngleAxisf(40 * kDegree, Vector3f::UnitX())));
+  const SignerSpace space = person.space(body);
   EXPECT_NEAR(heading(space), 0, 1e-4f);
   EXPECT_LT((space.model_from_signer * Vector3f::UnitY() - Vector3f::UnitY()).norm(), 1e-5f);
   EXPECT_GT(space.origin.z(), 0.1f);  // it moves with the shoulders
 }
 
 TEST(SignerSpaceOf, DoesNotTurnWithAShrug) {
-  Somebody somebody;
-  const SignerBody body = somebody.body();
-  somebody.turn("LeftShoulder", Quaternionf(AngleAxisf(30 * kDegree, Vector3f::UnitZ())));
-  const SignerSpace space = somebody.space(body);
+  PosedPerson person;
+  const SignerBody body = person.body();
+  person.turn("LeftShoulder", Quaternionf(AngleAxisf(30 * kDegree, Vector3f::UnitZ())));
+  const SignerSpace space = person.space(body);
   EXPECT_NEAR(heading(space), 0, 1e-4f);
   EXPECT_LT((space.model_from_signer * Vector3f::UnitY() - Vector3f::UnitY()).norm(), 1e-5f);
   EXPECT_FLOAT_EQ(space.unit, body.shoulder_width);
 }
 
-TEST(SignerSpaceOf, TakesTheTrunksHeadingWithoutAStepWhereOneShoulderStandsAboveTheOther) {
-  Somebody somebody;
-  const SignerBody body = somebody.body();
+TEST(SignerSpaceOf, BlendsToTheTrunksHeadingWhenOneShoulderIsAboveTheOther) {
+  PosedPerson person;
+  const SignerBody body = person.body();
   float before = 0;
   for (int degrees = 0; degrees <= 100; ++degrees) {
-    // Turned to the left, then over to the side until the shoulders stand one above the other and beyond.
-    somebody.turn("Spine", AngleAxisf(25 * kDegree, Vector3f::UnitY()) *
-                               AngleAxisf(static_cast<float>(degrees) * kDegree, Vector3f::UnitZ()));
-    const float now = heading(somebody.space(body));
+    // Turned to the left, then sideways until one shoulder is above the other and beyond.
+    person.turn("Spine", AngleAxisf(25 * kDegree, Vector3f::UnitY()) *
+                             AngleAxisf(static_cast<float>(degrees) * kDegree, Vector3f::UnitZ()));
+    const float now = heading(person.space(body));
     if (degrees > 0) {
       EXPECT_LT(std::abs(now - before), 3 * kDegree) << degrees;
     }
@@ -101,33 +101,33 @@ TEST(SignerSpaceOf, TakesTheTrunksHeadingWithoutAStepWhereOneShoulderStandsAbove
   }
 }
 
-TEST(SignerSpaceOf, LosesNothingInOneFrameInWhichTheShouldersCoincide) {
-  Somebody somebody;
-  somebody.motion = Motion(whole_person(), {60, 1}, 5);
+TEST(SignerSpaceOf, SurvivesAFrameInWhichTheShouldersCoincide) {
+  PosedPerson person;
+  person.motion = Motion(whole_person(), {60, 1}, 5);
   for (std::int64_t frame = 0; frame < 5; ++frame) {
-    somebody.turn("Spine", Quaternionf(AngleAxisf(30 * kDegree, Vector3f::UnitY())), frame);
+    person.turn("Spine", Quaternionf(AngleAxisf(30 * kDegree, Vector3f::UnitY())), frame);
   }
-  for (const std::size_t arm : {1U, 2U}) {  // both shoulders' translations: to the middle
+  for (const std::size_t arm : {1U, 2U}) {  // moves both shoulders to the middle
     const float side = arm == 1 ? 1 : -1;
-    somebody.motion.pose(2).translations[arm] = Vector3f(-0.03f * side, 0, 0);
+    person.motion.pose(2).translations[arm] = Vector3f(-0.03f * side, 0, 0);
   }
-  const SignerBody body = somebody.body();
+  const SignerBody body = person.body();
   EXPECT_NEAR(body.shoulder_width, 0.36f, 1e-4f);
-  EXPECT_NEAR(heading(somebody.space(body, 1)), 30 * kDegree, 1e-3f);
-  EXPECT_NEAR(heading(somebody.space(body, 2)), 30 * kDegree, 1e-3f);
-  EXPECT_TRUE(somebody.space(body, 2).origin.allFinite());
+  EXPECT_NEAR(heading(person.space(body, 1)), 30 * kDegree, 1e-3f);
+  EXPECT_NEAR(heading(person.space(body, 2)), 30 * kDegree, 1e-3f);
+  EXPECT_TRUE(person.space(body, 2).origin.allFinite());
 }
 
-TEST(SignerSpaceOf, NumbersThatAreNoneGiveASpaceToo) {
-  Somebody somebody;
-  const SignerBody body = somebody.body();
-  somebody.motion.pose(0).translations[1].x() = std::numeric_limits<float>::quiet_NaN();
-  const SignerSpace space = somebody.space(body);
+TEST(SignerSpaceOf, NanInputStillGivesASpace) {
+  PosedPerson person;
+  const SignerBody body = person.body();
+  person.motion.pose(0).translations[1].x() = std::numeric_limits<float>::quiet_NaN();
+  const SignerSpace space = person.space(body);
   EXPECT_TRUE(space.to_signer({1, 1, 1}).allFinite());
 }
 
 TEST(SignerBodyOf, ReadsHeightsFromTheBodysOwnJoints) {
-  const SignerBody body = Somebody().body();
+  const SignerBody body = PosedPerson().body();
   const auto metres = [&](Height height) { return 0.36f * body.heights[static_cast<std::size_t>(height)] + 1.38f; };
   EXPECT_EQ(body.heights[0], -std::numeric_limits<float>::infinity());
   EXPECT_NEAR(metres(Height::waist), 0.95f, 1e-4f);       // the hips
@@ -139,47 +139,47 @@ TEST(SignerBodyOf, ReadsHeightsFromTheBodysOwnJoints) {
   EXPECT_GT(body.near_reach, 0);
 }
 
-TEST(SignerBodyOf, TakesAPersonsProportionsForWhatTheBodyLacks) {
-  Somebody somebody;
-  const SignerBody whole = somebody.body();
+TEST(SignerBodyOf, UsesHumanProportionsForMissingLandmarks) {
+  PosedPerson person;
+  const SignerBody whole = person.body();
   for (const Part part : {Part::pelvis, Part::left_thigh, Part::right_thigh, Part::head, Part::head_top, Part::left_eye,
                           Part::right_eye, Part::neck}) {
-    somebody.rig[part] = {};
+    person.rig[part] = {};
   }
-  const SignerBody bare = somebody.body();
+  const SignerBody bare = person.body();
   for (std::size_t i = 1; i < bare.heights.size(); ++i) {
     EXPECT_NEAR(bare.heights[i], whole.heights[i], 0.2f) << name_of(static_cast<Height>(i));
     EXPECT_GT(bare.heights[i], bare.heights[i - 1]);
   }
-  // A head's end that lies below the shoulders is no head's end.
-  somebody.rig[Part::head_top] = somebody.rig[Part::left_hand];
-  somebody.rig[Part::head_top].offset = {0, -0.6f, 0};
-  EXPECT_EQ(somebody.body().heights, bare.heights);
+  // A head top below the shoulders is not plausible.
+  person.rig[Part::head_top] = person.rig[Part::left_hand];
+  person.rig[Part::head_top].offset = {0, -0.6f, 0};
+  EXPECT_EQ(person.body().heights, bare.heights);
 }
 
 TEST(SignerBodyOf, IsNotMisledByAFewOddFrames) {
-  Somebody somebody;
-  const SignerBody calm = somebody.body();
-  somebody.motion = Motion(whole_person(), {60, 1}, 20);
-  for (std::int64_t frame = 0; frame < 6; ++frame) somebody.motion.pose(frame).translations[1].x() = 5;
-  const SignerBody odd = somebody.body();
+  PosedPerson person;
+  const SignerBody calm = person.body();
+  person.motion = Motion(whole_person(), {60, 1}, 20);
+  for (std::int64_t frame = 0; frame < 6; ++frame) person.motion.pose(frame).translations[1].x() = 5;
+  const SignerBody odd = person.body();
   EXPECT_FLOAT_EQ(odd.shoulder_width, calm.shoulder_width);
   for (std::size_t i = 1; i < odd.heights.size(); ++i) EXPECT_NEAR(odd.heights[i], calm.heights[i], 1e-4f);
 }
 
-TEST(SignerBodyOf, IsNoneWithoutShouldersAndSaysWhy) {
-  Somebody somebody;
-  somebody.rig[Part::right_upper_arm] = {};
-  EXPECT_FALSE(signer_body(somebody.motion, somebody.rig));
-  EXPECT_EQ(why_no_signer_space(somebody.rig), "no right shoulder: name it in a mapping file");
-  Somebody joined;
+TEST(SignerBodyOf, IsEmptyWithoutShouldersAndSaysWhy) {
+  PosedPerson person;
+  person.rig[Part::right_upper_arm] = {};
+  EXPECT_FALSE(signer_body(person.motion, person.rig));
+  EXPECT_EQ(why_no_signer_space(person.rig), "no right shoulder: name it in a mapping file");
+  PosedPerson joined;
   joined.rig[Part::right_upper_arm] = joined.rig[Part::left_upper_arm];
   EXPECT_FALSE(signer_body(joined.motion, joined.rig));
-  EXPECT_FALSE(signer_body(Motion(whole_person(), {60, 1}, 0), Somebody().rig));
+  EXPECT_FALSE(signer_body(Motion(whole_person(), {60, 1}, 0), PosedPerson().rig));
 }
 
-TEST(ZoneOf, IsToldByBordersThatBelongToTheHigherZone) {
-  const SignerBody body = Somebody().body();
+TEST(ZoneOf, HasBordersThatBelongToTheHigherZone) {
+  const SignerBody body = PosedPerson().body();
   const auto height = [&](float y) { return zone_of({0, y, 0}, body).height; };
   EXPECT_EQ(height(-100), Height::below_waist);
   for (std::size_t i = 1; i < body.heights.size(); ++i) {

@@ -11,7 +11,7 @@ namespace {
 
 using Eigen::Vector3f;
 
-/// Two branches of one joint that are alike: legs or arms.
+/// Two similar branches of one joint: legs or arms.
 struct Pair {
   JointIndex from = kNoJoint;
   std::array<JointIndex, 2> roots = {kNoJoint, kNoJoint};
@@ -41,7 +41,8 @@ std::vector<Pair> pairs_of(const BodyShape& shape) {
   return pairs;
 }
 
-/// Along a limb to the hand or foot: where it forks into branches of which none is by far the longest, or ends.
+/// The joints along a limb up to the hand or foot, where it ends or forks into branches of which none is by far the
+/// longest.
 std::vector<JointIndex> path_from(const BodyShape& shape, JointIndex joint) {
   std::vector<JointIndex> path = {joint};
   while (!shape.below(joint).empty()) {
@@ -62,7 +63,7 @@ std::vector<JointIndex> path_from(const BodyShape& shape, JointIndex joint) {
   return path;
 }
 
-/// How far the body bends at the middle one of three points, at most over the frames. Radians.
+/// The largest bend at the middle one of three points over the frames. Radians.
 float bend(const BodyShape& shape, JointIndex before, JointIndex joint, JointIndex after) {
   float most = 0;
   for (const ModelPose& pose : shape.poses) {
@@ -73,19 +74,19 @@ float bend(const BodyShape& shape, JointIndex before, JointIndex joint, JointInd
   return most;
 }
 
-/// The two long bones of a limb, of which the body bends between.
+/// The two long bones of a limb, between which the body bends.
 Limb limb_of(const BodyShape& shape, JointIndex root) {
   Limb limb{.root = root};
   std::vector<JointIndex> path;
   for (const JointIndex joint : path_from(shape, root)) {
-    // Of joints in one place the last one moves the next bone.
+    // Of several joints at one point, the last one moves the next bone.
     if (!path.empty() && shape.bones[at(joint)] < 0.004f * shape.size) {
       path.back() = joint;
     } else {
       path.push_back(joint);
     }
   }
-  // Limbs in halves: what never bends is a joint of twist.
+  // In limbs split into halves, a joint that never bends is a twist joint.
   constexpr float kStraight = 0.03f;
   for (std::size_t i = 1; i + 1 < path.size() && path.size() > 4;) {
     if (shape.poses.size() > 4 && bend(shape, path[i - 1], path[i], path[i + 1]) < kStraight) {
@@ -99,7 +100,8 @@ Limb limb_of(const BodyShape& shape, JointIndex root) {
   for (std::size_t i = 0; i + 2 < path.size(); ++i) {
     const float upper = length(i + 1);
     const float lower = length(i + 2);
-    // Where a long collar could be the upper arm, the arm is what comes last: hands and feet are short.
+    // A long collar could pass for the upper arm: prefers later bones unless they are clearly shorter, since hands and
+    // feet are short.
     if (upper + lower <= 0.8f * longest || std::min(upper, lower) < 0.4f * std::max(upper, lower)) continue;
     longest = upper + lower;
     limb.collar = i > 0 ? path[0] : kNoJoint;
@@ -117,7 +119,8 @@ float height_of(const BodyShape& shape, JointIndex joint) {
   return sum / static_cast<float>(shape.poses.size());
 }
 
-/// The branch that leads to the head: beside the arms, or further up the trunk.
+/// The branch that leads to the head: the longest other child of the joint that carries the arms, or of its nearest
+/// ancestor with such a child.
 JointIndex neck_of(const Skeleton& skeleton, const BodyShape& shape, const Pair& arms) {
   JointIndex came = kNoJoint;
   for (JointIndex joint = arms.from; joint != kNoJoint; came = joint, joint = skeleton.joint(joint).parent) {
@@ -133,13 +136,13 @@ JointIndex neck_of(const Skeleton& skeleton, const BodyShape& shape, const Pair&
   return kNoJoint;
 }
 
-/// Along the neck to the joint that holds the skull: the first with an end or a fork.
+/// Follows the neck to the joint that holds the skull: the first with an end or a fork.
 JointIndex head_of(const BodyShape& shape, JointIndex neck) {
   JointIndex joint = neck;
   while (shape.below(joint).size() == 1 && !shape.has_tip(joint)) {
     const JointIndex next = shape.below(joint)[0];
     const bool end = shape.below(next).empty() && !shape.has_tip(next);
-    if (end && joint != neck) break;  // the skull's own end, as a joint
+    if (end && joint != neck) break;  // the skull's end as a joint
     joint = next;
   }
   return joint;
@@ -192,7 +195,7 @@ Structure structure_of(const Skeleton& skeleton, const BodyShape& shape) {
     if (joint == body.pelvis) break;
   }
   if (body.pelvis == kNoJoint && trunk.size() > 1) {
-    // Without legs, a root on the ground shows by its bone, which is longer than all the trunk.
+    // Without legs, a root on the ground is recognised by its bone, which is longer than the whole trunk.
     const JointIndex top = body.neck != kNoJoint ? body.neck : body.chest;
     const JointIndex next = trunk[trunk.size() - 2];
     if (shape.bones[at(next)] > 1.2f * (shape.place(top) - shape.place(next)).norm() && trunk.size() > 2) {

@@ -8,19 +8,19 @@
 
 namespace signweave {
 
-/// An arm or a leg, told by its bones. kNoJoint where it has no such joint.
+/// An arm or a leg, identified by its bones. kNoJoint for a joint that it lacks.
 struct Limb {
-  JointIndex root = kNoJoint;    ///< where it leaves the trunk; may be any of the next two
-  JointIndex collar = kNoJoint;  ///< of an arm
+  JointIndex root = kNoJoint;    ///< where it leaves the trunk; may equal one of the next two
+  JointIndex collar = kNoJoint;  ///< arms only
   JointIndex upper = kNoJoint;   ///< shoulder or hip
   JointIndex lower = kNoJoint;   ///< elbow or knee
   JointIndex end = kNoJoint;     ///< wrist or ankle
-  JointIndex toes = kNoJoint;    ///< of a leg
+  JointIndex toes = kNoJoint;    ///< legs only
 };
 
-/// A body told from its shape alone.
+/// A body identified by its shape alone.
 struct Structure {
-  std::vector<Limb> arms;  ///< two, one or none; which is the left one is not said
+  std::vector<Limb> arms;  ///< up to two; which one is the left is not determined
   std::vector<Limb> legs;
   JointIndex pelvis = kNoJoint;
   JointIndex spine = kNoJoint;
@@ -30,11 +30,13 @@ struct Structure {
 };
 Structure structure_of(const Skeleton& skeleton, const BodyShape& shape);
 
-/// The joints of one finger beneath a wrist, by shape: [point], kNoJoint where there is none.
+/// The joints of one finger below a wrist, by shape: [point], kNoJoint if there is none.
 using FingerChain = std::array<JointIndex, kFingerPoints>;
-/// Where at least four fingers leave the palm, in no order; empty where fewer chains of joints grow from the hand.
+/// The joints at which at least four fingers leave the palm, in no order; empty if fewer chains of joints grow from the
+/// hand.
 std::vector<JointIndex> knuckles_of(const Skeleton& skeleton, const BodyShape& shape, JointIndex hand);
-/// By order from the thumb. Empty where no four or five fingers are seen, or no thumb tells which end is which.
+/// The fingers of a hand in order from the thumb. Empty if there are not four or five fingers, or if no thumb shows at
+/// which end to start.
 std::vector<std::pair<Finger, FingerChain>> fingers_of(const Skeleton& skeleton, const BodyShape& shape,
                                                        JointIndex hand);
 

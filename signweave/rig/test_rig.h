@@ -1,6 +1,6 @@
 #pragma once
 
-// For tests: rig maps made by hand, and a person with whole hands.
+// For tests: rig maps built by hand, and a person with complete hands.
 
 #include <fmt/format.h>
 
@@ -14,7 +14,7 @@
 
 namespace signweave {
 
-/// A map of those names that the skeleton has.
+/// A map of those of the given names that the skeleton has.
 inline RigMap rig_of_names(const Skeleton& skeleton, const std::vector<std::pair<Part, std::string>>& names) {
   RigMap rig;
   for (const auto& [part, name] : names) {
@@ -25,7 +25,7 @@ inline RigMap rig_of_names(const Skeleton& skeleton, const std::vector<std::pair
   return rig;
 }
 
-/// A point that moves with a joint: that joint's first tip.
+/// Places a part at a joint's first tip.
 inline void place_tip(const Skeleton& skeleton, Part part, JointIndex joint, RigMap& rig) {
   for (const Tip& tip : skeleton.tips()) {
     if (tip.joint != joint) continue;
@@ -34,7 +34,7 @@ inline void place_tip(const Skeleton& skeleton, Part part, JointIndex joint, Rig
   }
 }
 
-/// The map of a skeleton with the names of the made signer (demo/signer.h) or of `whole_person` below.
+/// The map of a skeleton with the names of the synthetic signer (demo/signer.h) or of `whole_person` below.
 inline RigMap rig_of_signer(const Skeleton& skeleton) {
   std::vector<std::pair<Part, std::string>> names = {
       {Part::pelvis, "Hips"}, {Part::spine, "Spine"},      {Part::chest, "Spine2"},      {Part::neck, "Neck"},
@@ -67,8 +67,8 @@ inline RigMap rig_of_signer(const Skeleton& skeleton) {
   return rig;
 }
 
-/// A person of 1.70 m (times `scale`) who looks along z in the rest pose, arms out, palms down. Names as the made
-/// signer's (demo/signer.h); the arms may move by translation, as some rigs let them.
+/// A person of 1.70 m (times `scale`) who faces along z in the rest pose, arms out, palms down. Names are those of the
+/// synthetic signer (demo/signer.h); the arms may be translated, as some rigs allow.
 inline std::shared_ptr<const Skeleton> whole_person(float scale = 1, bool fingers = true) {
   std::vector<Joint> joints = {{"Hips", kNoJoint, {0, 0.95f, 0}, true},
                                {"Spine", 0, {0, 0.15f, 0}, false},
@@ -110,8 +110,8 @@ inline std::shared_ptr<const Skeleton> whole_person(float scale = 1, bool finger
   return std::make_shared<const Skeleton>(std::move(joints), std::move(tips));
 }
 
-/// Somebody who moves: every joint but the root turns to and fro, each in its own way, the arms farthest; the same seed
-/// moves in the same way.
+/// A moving person: every joint except the root turns to and fro, each in its own pattern, the arms farthest. Equal
+/// seeds give equal movement.
 inline Motion moving(std::shared_ptr<const Skeleton> skeleton, std::int64_t frames, unsigned seed = 1,
                      FrameRate rate = {100, 1}) {
   Motion motion(std::move(skeleton), rate, frames);
@@ -138,7 +138,7 @@ inline Motion placed(Motion motion, float turn, const Eigen::Vector3f& shift) {
   return motion;
 }
 
-/// The motion seen in the mirror x → −x: each joint does what its namesake of the other side did.
+/// The motion mirrored by x → −x: each joint moves as its namesake on the other side did.
 inline Motion in_mirror(const Motion& motion) {
   const Skeleton& skeleton = motion.skeleton();
   const auto other = [&](std::size_t joint) {

@@ -9,18 +9,18 @@
 
 namespace signweave {
 
-/// For tests: what one rig calls the joints of a body. `@` stands for the side; an empty name leaves a joint out.
-/// More than fifteen members: a joint each.
+/// For tests: the joint names of one rig. `@` stands for the side; an empty name leaves a joint out. More than fifteen
+/// members: one per joint.
 struct RigNaming {
   std::string left = "Left", right = "Right";
   std::string hips = "Hips", spine = "Spine", chest = "Spine1", neck = "Neck", head = "Head";
   std::string collar = "@Shoulder", arm = "@Arm", elbow = "@ForeArm", hand = "@Hand";
   std::string thigh = "@UpLeg", knee = "@Leg", foot = "@Foot", toes = "@ToeBase";
-  std::vector<std::vector<std::string>> fingers = {};  ///< thumb first; the joints of each
+  std::vector<std::vector<std::string>> fingers = {};  ///< thumb first; the joints of each finger
 };
 
-/// A person of 1.7 m who stands upright with the arms out and looks along z; every part where it is in a body. The
-/// fingers are bent a little, as those of people are.
+/// A person of 1.7 m who stands upright with the arms out and faces along z; every part has a realistic place. The
+/// fingers are slightly bent, as in a relaxed hand.
 inline Motion rig_body(const RigNaming& naming, std::int64_t frames = 1) {
   std::vector<Joint> joints;
   std::vector<Tip> tips;
@@ -76,7 +76,7 @@ inline Motion rig_body(const RigNaming& naming, std::int64_t frames = 1) {
   return Motion(std::make_shared<const Skeleton>(std::move(joints), std::move(tips)), {100, 1}, frames);
 }
 
-/// The same motion whose joints are called otherwise.
+/// The same motion with other joint names.
 inline Motion renamed(const Motion& motion, std::string_view prefix) {
   std::vector<Joint> joints(motion.skeleton().joints().begin(), motion.skeleton().joints().end());
   for (std::size_t i = 0; i < joints.size(); ++i)

@@ -16,7 +16,7 @@ namespace {
   throw Error(ErrorCode::bad_input, what);
 }
 
-/// All of `text` as a number; none where it is not one.
+/// Parses all of `text` as a number; none if it is not one.
 template <class Number>
 std::optional<Number> number_in(std::string_view text) {
   Number number{};
@@ -33,17 +33,17 @@ const TransitionMethod* method_in(std::string_view part) {
   if (const TransitionMethod* method = find_transition_method(part)) return method;
   std::vector<std::string> known;
   for (const TransitionMethod& method : transition_methods()) known.emplace_back(method.name);
-  refuse(fmt::format("'{}' is no method ({}), duration (450ms) or tempo (x1.5){}", printable(part),
+  refuse(fmt::format("'{}' is not a method ({}), duration (450ms) or tempo (x1.5){}", printable(part),
                      fmt::join(known, ", "), did_you_mean(part, known)));
 }
 
 Milliseconds duration_in(std::string_view part) {
   if (!part.ends_with("ms")) {
-    refuse(fmt::format("'{}': a duration has its unit with it, as in 450ms", printable(part)));
+    refuse(fmt::format("'{}': a duration needs its unit, as in 450ms", printable(part)));
   }
   const auto ms = number_in<std::int64_t>(part.substr(0, part.size() - 2));
   if (!ms || *ms > kLongestTransition.count()) {
-    refuse(fmt::format("'{}' is no duration of 0ms to {}ms", printable(part), kLongestTransition.count()));
+    refuse(fmt::format("'{}' is not a duration of 0ms to {}ms", printable(part), kLongestTransition.count()));
   }
   return Milliseconds(*ms);
 }
@@ -51,7 +51,7 @@ Milliseconds duration_in(std::string_view part) {
 double tempo_in(std::string_view part) {
   const auto tempo = number_in<double>(part.substr(1));
   if (!tempo || !(*tempo >= kSlowestTempo && *tempo <= kFastestTempo)) {
-    refuse(fmt::format("'{}' is no tempo from x{} to x{}", printable(part), kSlowestTempo, kFastestTempo));
+    refuse(fmt::format("'{}' is not a tempo from x{} to x{}", printable(part), kSlowestTempo, kFastestTempo));
   }
   return *tempo;
 }
@@ -85,7 +85,7 @@ NumberedJunction parse_junction(std::string_view text) {
   const std::string_view number = trimmed(text.substr(0, sign));
   const auto counted = number_in<std::size_t>(number);
   if (!counted || *counted == 0) {
-    refuse(fmt::format("'{}': '{}' is no junction; they are counted from 1", printable(text), printable(number)));
+    refuse(fmt::format("'{}': '{}' is not a junction; they are numbered from 1", printable(text), printable(number)));
   }
   NumberedJunction one{.number = *counted, .choice = {}};
   for (std::size_t begin = sign + 1; begin <= text.size();) {
@@ -101,7 +101,7 @@ JunctionChoices parse_junctions(std::span<const std::string> texts) {
   for (const std::string& text : texts) {
     const NumberedJunction one = parse_junction(text);
     if (!choices.emplace(one.number, one.choice).second) {
-      refuse(fmt::format("junction {0} is named twice; put its parts together: {0}=PART,PART", one.number));
+      refuse(fmt::format("junction {0} is named twice; combine its parts: {0}=PART,PART", one.number));
     }
   }
   return choices;

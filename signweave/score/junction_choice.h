@@ -12,20 +12,20 @@
 
 namespace signweave {
 
-/// How the transition of one junction is made, where that is told for it alone. What is not told is as for all.
+/// Options for the transition of one junction. Unset members use the options for all junctions.
 struct JunctionChoice {
-  const TransitionMethod* method = nullptr;  ///< null: that of all
-  std::optional<Milliseconds> duration;      ///< at tempo 1, without a pause; none: as all are timed
-  /// The transition lasts so many times shorter than it would; its pause and the strokes on both sides do not. What is
-  /// kept of retraction and preparation goes on as fast as its stroke, so that nothing changes pace where they meet.
+  const TransitionMethod* method = nullptr;  ///< null: the method for all
+  std::optional<Milliseconds> duration;      ///< at tempo 1, without a pause; none: timed like the others
+  /// Factor by which the transition is shortened; its pause and the strokes on both sides are not. The kept parts of
+  /// retraction and preparation play at the speed of their stroke, so that the speed does not change where they meet.
   std::optional<double> tempo;
 
   bool empty() const noexcept { return method == nullptr && !duration && !tempo; }
   friend bool operator==(const JunctionChoice&, const JunctionChoice&) = default;
 };
 
-/// By the number of the junction: 1 is where the first place of an utterance, or the first part of an edit, meets the
-/// second, whether or not their transition would be kept as it was recorded.
+/// By junction number: 1 is the junction between the first and second place of an utterance or part of an edit, whether
+/// or not their recorded transition would be kept.
 using JunctionChoices = std::map<std::size_t, JunctionChoice>;
 
 struct NumberedJunction {
@@ -33,17 +33,17 @@ struct NumberedJunction {
   JunctionChoice choice;
 };
 
-/// Both ends belong to it.
+/// Inclusive limits.
 inline constexpr Milliseconds kLongestTransition{60'000};
 inline constexpr double kSlowestTempo = 0.25;
 inline constexpr double kFastestTempo = 4.0;
 
 /// `N=PART[,PART…]`, each part once: a method's name, a duration `450ms`, a tempo `x1.5`. Throws Error{bad_input}, with
-/// near matches for a method that there is not.
+/// near matches for an unknown method.
 NumberedJunction parse_junction(std::string_view text);
-/// Several of them. Throws Error{bad_input}, also where one is named twice.
+/// Parses several. Throws Error{bad_input}, also if a junction is named twice.
 JunctionChoices parse_junctions(std::span<const std::string> texts);
-/// "hermite,450ms,x1.5"; empty where nothing was chosen.
+/// "hermite,450ms,x1.5"; empty if nothing was chosen.
 std::string to_string(const JunctionChoice& choice);
 
 }  // namespace signweave

@@ -20,7 +20,7 @@ std::string fault_of(const std::vector<std::string>& texts) {
   return "no fault";
 }
 
-TEST(ParseJunction, PartsComeInAnyOrderAndEachMayBeLeftOut) {
+TEST(ParseJunction, PartsAreOptionalAndInAnyOrder) {
   const NumberedJunction all = parse_junction("12=x1.5,hermite,450ms");
   EXPECT_EQ(all.number, 12u);
   EXPECT_EQ(all.choice, (JunctionChoice{find_transition_method("hermite"), 450ms, 1.5}));
@@ -29,32 +29,32 @@ TEST(ParseJunction, PartsComeInAnyOrderAndEachMayBeLeftOut) {
   EXPECT_EQ(parse_junction(" 1 = x.5 , 60000ms ").choice, (JunctionChoice{nullptr, 60'000ms, 0.5}));
 }
 
-TEST(ParseJunction, FaultsSayWhatIsExpected) {
+TEST(ParseJunction, ErrorsSayWhatIsExpected) {
   EXPECT_THAT(fault_of({"2:hermite"}), HasSubstr("'2:hermite': expected N=PART"));
   for (const char* number : {"0", "", "-1", "two", "1.5", "99999999999999999999"}) {
-    EXPECT_THAT(fault_of({std::string(number) + "=hermite"}), HasSubstr("counted from 1")) << number;
+    EXPECT_THAT(fault_of({std::string(number) + "=hermite"}), HasSubstr("numbered from 1")) << number;
   }
-  EXPECT_THAT(fault_of({"1=hermit"}), HasSubstr("'hermit' is no method (taught, overlap, gap, "));
+  EXPECT_THAT(fault_of({"1=hermit"}), HasSubstr("'hermit' is not a method (taught, overlap, gap, "));
   EXPECT_THAT(fault_of({"1=hermit"}), HasSubstr("did you mean hermite?"));
-  EXPECT_THAT(fault_of({"1=450"}), HasSubstr("'450': a duration has its unit with it, as in 450ms"));
+  EXPECT_THAT(fault_of({"1=450"}), HasSubstr("'450': a duration needs its unit, as in 450ms"));
   EXPECT_THAT(fault_of({"1=0.4s"}), HasSubstr("as in 450ms"));
   for (const char* duration : {"4.5ms", "60001ms", "99999999999999999999ms", "1e3ms"}) {
-    EXPECT_THAT(fault_of({std::string("1=") + duration}), HasSubstr("is no duration of 0ms to 60000ms")) << duration;
+    EXPECT_THAT(fault_of({std::string("1=") + duration}), HasSubstr("is not a duration of 0ms to 60000ms")) << duration;
   }
   for (const char* tempo : {"x0.2", "x4.1", "x-1", "x1,5", "x1.5.1", "x1e9"}) {
     EXPECT_NE(fault_of({std::string("1=") + tempo}), "no fault") << tempo;
   }
-  EXPECT_THAT(fault_of({"1=x5"}), HasSubstr("'x5' is no tempo from x0.25 to x4"));
+  EXPECT_THAT(fault_of({"1=x5"}), HasSubstr("'x5' is not a tempo from x0.25 to x4"));
   EXPECT_THAT(fault_of({"1="}), HasSubstr("a part is empty"));
   EXPECT_THAT(fault_of({"1=hermite,"}), HasSubstr("a part is empty"));
 }
 
-TEST(ParseJunction, EachPartAndEachJunctionIsToldOnce) {
+TEST(ParseJunction, EachPartAndEachJunctionIsGivenOnce) {
   EXPECT_THAT(fault_of({"1=hermite,sine"}), HasSubstr("'sine': there is a method already"));
   EXPECT_THAT(fault_of({"1=1ms,2ms"}), HasSubstr("'2ms': there is a duration already"));
   EXPECT_THAT(fault_of({"1=x1,x1"}), HasSubstr("'x1': there is a tempo already"));
   EXPECT_THAT(fault_of({"1=hermite", "2=x1", "1=450ms"}),
-              HasSubstr("junction 1 is named twice; put its parts together: 1=PART,PART"));
+              HasSubstr("junction 1 is named twice; combine its parts: 1=PART,PART"));
 }
 
 RC_GTEST_PROP(ParseJunction, WhatIsWrittenIsReadAgain, ()) {

@@ -11,15 +11,15 @@ Milliseconds time_of(std::int64_t frame, FrameRate rate) {
                                    static_cast<double>(rate.numerator)));
 }
 
-/// Where a clip's signs may lie: between the middles of the transitions on both sides.
+/// The time range of a clip's signs: between the middles of the transitions on both sides.
 struct Room {
   TimeSpan span;
-  TimeSpan kept;               ///< where the frames are those of the recording
-  bool joined_before = false;  ///< a junction is there, not the begin of the result
+  TimeSpan kept;               ///< the range of captured frames
+  bool joined_before = false;  ///< it begins at a junction, not at the begin of the result
   bool joined_after = false;
 };
 
-/// Places a clip's signs in output time. At a junction its first sign begins, and its last ends, with the room.
+/// Places a clip's signs in output time. At junctions, the first sign begins and the last ends with the room.
 void place_signs_of(const MotionClip& clip, const ShownClip& placed, std::size_t index, const Room& room,
                     Synthesis& out) {
   const FrameRate rate = out.motion.rate();
@@ -33,8 +33,8 @@ void place_signs_of(const MotionClip& clip, const ShownClip& placed, std::size_t
     const Sign& source = clip.signs[i];
     PlacedSign sign{.sign = source, .clip = index, .place = place_of_sign(clip, i, index), .recorded = source.span};
     const auto recorded_stroke = source.stroke_span();
-    // Where the core begins or ends with the stroke. At a piece cut through a sign it does not: that sign stays as it
-    // was.
+    // True if the core begins or ends with the stroke. At a piece cut through a sign it does not; that sign is
+    // unchanged.
     const auto meets = [&](Milliseconds recorded, std::int64_t frame) {
       return std::abs(clip.clock.frame_at(recorded) - static_cast<double>(frame)) <= 1.0;
     };
@@ -44,7 +44,7 @@ void place_signs_of(const MotionClip& clip, const ShownClip& placed, std::size_t
                       last && room.joined_after ? room.span.end : output_time(source.span.end)};
     std::vector<Phase> phases;
     if (!(first && room.joined_before) && !(last && room.joined_after)) {
-      // Nothing of it was made: it stays as it was annotated, holds and all.
+      // Nothing of it was generated: its annotation is kept, including holds.
       for (const Phase& phase : source.phases) {
         phases.push_back({phase.kind, {output_time(phase.span.begin), output_time(phase.span.end)}, phase.label, {}});
         sign.sign.span = {std::min(sign.sign.span.begin, phases.back().span.begin),
@@ -58,7 +58,7 @@ void place_signs_of(const MotionClip& clip, const ShownClip& placed, std::size_t
     TimeSpan stroke{output_time(recorded_stroke->begin), output_time(recorded_stroke->end)};
     if (first) stroke.begin = time_of(placed.core.begin, rate);
     if (last) stroke.end = time_of(placed.core.end, rate);
-    stroke.end = std::max(stroke.end, stroke.begin + Milliseconds(1));  // shorter than a frame, but there
+    stroke.end = std::max(stroke.end, stroke.begin + Milliseconds(1));  // shorter than a frame, but not empty
     sign.sign.span = {std::min(sign.sign.span.begin, stroke.begin), std::max(sign.sign.span.end, stroke.end)};
     const auto add = [&](PhaseKind kind, TimeSpan span, const std::string& label) {
       if (span.begin < span.end) phases.push_back({kind, span, label, {}});
@@ -69,7 +69,7 @@ void place_signs_of(const MotionClip& clip, const ShownClip& placed, std::size_t
       }
       return std::string(otherwise);
     };
-    // Preparation and retraction fill what was made; a hold that is kept in them stays a hold.
+    // Preparation and retraction cover the generated frames; a kept hold inside them stays a hold.
     const auto surround = [&](PhaseKind kind, const std::string& label, TimeSpan all) {
       Milliseconds from = all.begin;
       for (const Phase& phase : source.phases) {
@@ -106,7 +106,7 @@ void place_signs_of(const MotionClip& clip, const ShownClip& placed, std::size_t
 void place_signs(const std::vector<MotionClip>& clips, Synthesis& out) {
   const FrameRate rate = out.motion.rate();
   for (std::size_t i = 0; i < clips.size(); ++i) {
-    // The middle of what was made between two signs parts them.
+    // The boundary between two signs is the middle of the generated frames.
     const auto middle = [&](std::size_t junction) {
       const Junction& one = out.junctions[junction];
       const std::int64_t kept = one.cut.retraction_frames - one.cut.overlap();

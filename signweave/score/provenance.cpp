@@ -16,13 +16,13 @@ Annotation annotation(TimeSpan span, std::string label, std::string id, std::str
 AnnotationDocument annotation_of(const Synthesis& synthesis, const std::string& motion_file) {
   AnnotationDocument document;
   document.author = "signweave";
-  document.date = "1970-01-01T00:00:00+00:00";  // the same synthesis gives the same bytes
+  document.date = "1970-01-01T00:00:00+00:00";  // constant, so that the same synthesis gives the same bytes
   if (!motion_file.empty()) {
     document.linked_files.push_back(
         {.url = motion_file, .relative_url = "./" + motion_file, .mime_type = "unknown", .media = false});
   }
   document.properties.emplace_back("signweave:synthesis",
-                                   "made from captured stretches; see the tiers Source and Junction");
+                                   "made from captured clips; see the tiers Source and Junction");
   document.properties.insert(document.properties.end(), synthesis.declarations.begin(), synthesis.declarations.end());
   document.types = {{"gloss", Stereotype::none, {}},
                     {"phase", Stereotype::time_subdivision, {}},

@@ -7,9 +7,9 @@
 
 namespace signweave {
 
-/// A synthesis as an annotation document, so that ELAN shows what was made of what. Tiers: "Gloss" (the signs), "Phase"
-/// (its child, filling each sign), "Source" (each clip of captured frames: recording and where it was there),
-/// "Junction" (each transition: method, what it joins, how it was cut). `motion_file` is linked where it is not empty.
+/// A synthesis as an annotation document, so that ELAN can show where each part comes from. Tiers: "Gloss" (the signs),
+/// "Phase" (its child, filling each sign), "Source" (each clip of captured frames: its recording and position there),
+/// "Junction" (each transition: method, joined signs, cut points). `motion_file` is linked if it is not empty.
 AnnotationDocument annotation_of(const Synthesis& synthesis, const std::string& motion_file = {});
 
 }  // namespace signweave

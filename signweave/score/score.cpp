@@ -12,7 +12,7 @@
 namespace signweave {
 namespace {
 
-/// No number of frames is larger: sums of some of them are still numbers.
+/// Limit on frame numbers, so that sums of several do not overflow.
 constexpr std::int64_t kMostFrameNumber = std::int64_t{1} << 40;
 
 struct Checker {
@@ -33,14 +33,14 @@ struct Checker {
     require(clip.id == index, "clip {} has the id {}; ids count from 0 in the order of the clips", index, clip.id);
     const bool shown = clip.source.kind == SourceRef::Kind::shown;
     require(clip.source.recording.empty() == shown, "clip {} {}", index,
-            shown ? "names a recording, and is of what was shown before" : "names no recording");
-    require(!shown || index == 0, "clip {} is of what was shown before the score; only the first one can be", index);
+            shown ? "names a recording, but is of kind 'shown'" : "names no recording");
+    require(!shown || index == 0, "clip {} is of kind 'shown'; only the first one can be", index);
     require(in_range(clip.whole.begin) && in_range(clip.whole.end) && clip.whole.begin <= clip.core.begin &&
                 clip.core.begin < clip.core.end && clip.core.end <= clip.whole.end,
             "clip {} keeps frames {} to {} out of {} to {}; the first range must not be empty, and lie in the second",
             index, clip.core.begin, clip.core.end, clip.whole.begin, clip.whole.end);
     require(std::isfinite(clip.step) && clip.step >= 1e-3 && clip.step <= 1e6,
-            "clip {} goes {} frames a frame; a step is a number from 0.001 to 1000000", index, clip.step);
+            "clip {} has the step {}; a step is a number from 0.001 to 1000000", index, clip.step);
     require(in_range(clip.at.begin) && clip.at.begin < clip.at.end && clip.at.end <= score.frames,
             "clip {} is at frames {} to {} of {}", index, clip.at.begin, clip.at.end, score.frames);
     require(index == 0 || clip.at.begin >= score.clips[index - 1].at.end,
@@ -48,22 +48,22 @@ struct Checker {
     const auto at = static_cast<double>(clip.at.size());
     const auto core = static_cast<double>(clip.core.size());
     require(at <= std::max(1.0, std::round(core / clip.step)) && core <= (at + 1) * clip.step + 1,
-            "clip {} shows {} frames in {}, {} a frame; that is not their number", index, clip.core.size(),
+            "clip {} shows {} frames in {}, {} a frame; these numbers do not agree", index, clip.core.size(),
             clip.at.size(), clip.step);
     require(clip.sign_places.size() == clip.signs.size() && std::ranges::is_sorted(clip.sign_places) &&
                 (clip.signs.empty() || clip.sign_places.front() >= clip.place),
             "the signs of clip {} are of places before its own, {}, or not in their order", index, clip.place);
     const double frame_time = clip.clock.frame_time.count();
     require(std::abs(clip.clock.origin.count()) <= 1e9 && frame_time >= 1e-6 && frame_time <= 1e4,
-            "the clock of clip {} begins at {} s and goes {} s a frame", index, clip.clock.origin.count(), frame_time);
+            "the clock of clip {} begins at {} s with {} s a frame", index, clip.clock.origin.count(), frame_time);
     for (const Sign& sign : clip.signs) {
       require(in_range(sign.span) && std::ranges::all_of(
                                          sign.phases, [](TimeSpan span) { return in_range(span); }, &Phase::span),
-              "a sign of clip {} lies at no time, or ends before it begins", index);
+              "a sign of clip {} has no valid time, or ends before it begins", index);
     }
     if (!clip.standing) return;
     require(clip.standing->shift.allFinite() && std::abs(clip.standing->turn.norm() - 1) < 1e-3f,
-            "clip {} stands nowhere: its turn must be a unit quaternion, its shift three numbers", index);
+            "clip {} has no valid standing: its turn must be a unit quaternion, its shift three numbers", index);
   }
 
   void transition(const Transition& made, const FrameRange& at, std::size_t index, std::string_view channel) const {
@@ -72,7 +72,7 @@ struct Checker {
             index, made.from, made.to);
     for (const std::int64_t number :
          {cut.length, cut.retraction_frames, cut.preparation_frames, cut.blend_frames, cut.pause_frames}) {
-      require(in_range(number), "lane '{}': transition {} has {} frames of something", channel, index, number);
+      require(in_range(number), "lane '{}': transition {} has a cut with {} frames", channel, index, number);
     }
     require(cut.retraction_frames <= cut.length && cut.preparation_frames <= cut.length,
             "lane '{}': transition {} keeps more than its {} frames", channel, index, cut.length);
@@ -82,7 +82,7 @@ struct Checker {
 
   void lane(const Lane& lane, Channel channel) const {
     const std::string_view name = name_of(channel);
-    require(lane.channel == channel, "lane '{}' stands where '{}' belongs", name_of(lane.channel), name);
+    require(lane.channel == channel, "lane '{}' is where '{}' belongs", name_of(lane.channel), name);
     require(lane.items.size() == 2 * score.clips.size() - 1, "lane '{}' has {} items; {} clips make {}", name,
             lane.items.size(), score.clips.size(), 2 * score.clips.size() - 1);
     std::int64_t end = 0;
@@ -93,7 +93,7 @@ struct Checker {
               end);
       end = item.at.end;
       if (i % 2 == 1) {
-        require(std::holds_alternative<Transition>(item.what), "lane '{}': item {} is no transition", name, i);
+        require(std::holds_alternative<Transition>(item.what), "lane '{}': item {} is not a transition", name, i);
         transition(std::get<Transition>(item.what), item.at, i / 2, name);
       } else {
         const ClipUse* const use = std::get_if<ClipUse>(&item.what);
@@ -146,7 +146,7 @@ std::string_view name_of(SourceRef::Kind kind) noexcept {
 
 void check(const Score& score, const std::string& where) {
   const Checker checker{score, where};
-  checker.require(!score.clips.empty(), "a score without a clip; it must have one");
+  checker.require(!score.clips.empty(), "a score must have at least one clip");
   checker.require(score.skeleton.kind == SourceRef::Kind::recording && !score.skeleton.recording.empty(),
                   "'skeleton' names no recording");
   constexpr std::int64_t kMostInRate = 1'000'000'000;
@@ -172,16 +172,16 @@ void check(const Score& score, const std::string& where) {
     for (std::size_t lane = 1; lane < kChannels.size(); ++lane) {
       checker.require(
           length(lane) == length(0),
-          "junction {} is {} frames long in lane '{}' and {} in '{}'; lanes cut it apart, but all have one length",
-          i + 1, length(lane), name_of(kChannels[lane]), length(0), name_of(kChannels[0]));
+          "junction {} is {} frames long in lane '{}' and {} in '{}'; its length must be the same in all lanes", i + 1,
+          length(lane), name_of(kChannels[lane]), length(0), name_of(kChannels[0]));
     }
-    // A cross-fade is of the whole body.
+    // A cross-fade applies to the whole body.
     const auto cut = [&](Channel lane) {
       return std::get<Transition>(score.lanes[static_cast<std::size_t>(lane)].items[2 * i + 1].what).cut;
     };
     const TransitionCut body = cut(Channel::body), left = cut(Channel::left), right = cut(Channel::right);
     checker.require((body == left && body == right) || body.overlap() + left.overlap() + right.overlap() == 0,
-                    "junction {} is cross-faded, and so must be cut alike in the lanes of the body and both arms",
+                    "junction {} is cross-faded, so its cut must be the same in the lanes of the body and both arms",
                     i + 1);
   }
 }

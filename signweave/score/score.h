@@ -14,40 +14,39 @@
 #include "signweave/motion/blend.h"
 #include "signweave/score/transition.h"
 
-/// What will be signed, by which captured frames, and when: one plain value between meaning and motion. It holds no
-/// frames.
+/// A score says what is signed, with which captured frames, and when: a plain value between the request and the motion.
+/// It contains no frames.
 namespace signweave {
 
-/// Where captured frames come from, as a score names it.
+/// The source of captured frames, as stored in a score.
 struct SourceRef {
   enum class Kind : std::uint8_t {
     recording,  ///< frames of a recording
-    rest,       ///< the signer of a recording at rest, as a player shows it: frame 0 is the rest pose
-    shown,      ///< frames that a stream showed before the score begins, which alone its player knew
+    rest,       ///< a recording's signer at rest, as shown by a player; frame 0 is the rest pose
+    shown,      ///< frames that a stream showed before the score begins, known only to its player
   };
   Kind kind = Kind::recording;
-  std::string recording;          ///< empty of `shown`
-  std::uint64_t fingerprint = 0;  ///< checksum of its motion file; 0: not known, as of a motion that was made in memory
+  std::string recording;          ///< empty for `shown`
+  std::uint64_t fingerprint = 0;  ///< checksum of its motion file; 0: unknown, such as for a motion created in memory
   friend bool operator==(const SourceRef&, const SourceRef&) = default;
 };
 
-/// The number of a clip in its score, from 0. It stays the same wherever the clip is reported.
+/// The number of a clip in its score, from 0. Reports refer to the clip by this number.
 using ClipId = std::uint32_t;
 
 /// Captured frames of one recording.
 struct Clip {
   ClipId id = 0;
-  std::size_t place = 0;  ///< of what was asked for, from 0: the first one that the clip is of
+  std::size_t place = 0;  ///< the first place of the request that the clip fills, from 0
   SourceRef source;
-  FrameRange
-      whole;        ///< recording frames that may be shown: the core with the first preparation and the last retraction
-  FrameRange core;  ///< recording frames that are kept as they are; inside `whole`, not empty
-  double step = 1;  ///< recording frames per output frame; positive
-  FrameRange at;    ///< output frames of the core; not empty
-  std::optional<GroundTransform> standing;  ///< how it is brought to where the signer stands; none: it is there
+  FrameRange whole;  ///< recording frames that may be shown: core, first preparation and last retraction
+  FrameRange core;   ///< recording frames that are never changed; inside `whole`, not empty
+  double step = 1;   ///< recording frames per output frame; positive
+  FrameRange at;     ///< output frames of the core; not empty
+  std::optional<GroundTransform> standing;  ///< moves it to where the signer stands; none: not moved
   FrameClock clock;                         ///< of the recording
-  std::vector<Sign> signs;                  ///< that it holds, in the recording's annotation time
-  std::vector<std::size_t> sign_places;     ///< [sign] the place that it is of
+  std::vector<Sign> signs;                  ///< its signs, in the recording's annotation time
+  std::vector<std::size_t> sign_places;     ///< [sign] the place that it fills
   friend bool operator==(const Clip&, const Clip&) = default;
 };
 
@@ -57,7 +56,7 @@ struct ClipUse {
   friend bool operator==(const ClipUse&, const ClipUse&) = default;
 };
 
-/// Between two clips in a lane: frames that are made, or in which both are cross-faded.
+/// A transition between two clips in a lane: generated or cross-faded frames.
 struct Transition {
   ClipId from = 0;
   ClipId to = 0;
@@ -67,13 +66,13 @@ struct Transition {
 
 struct Item {
   std::variant<ClipUse, Transition> what;
-  FrameRange at;  ///< output frames; empty of a transition in which two clips meet
+  FrameRange at;  ///< output frames; empty for a transition between adjacent clips
   friend bool operator==(const Item&, const Item&) = default;
 };
 
-/// What is controlled by itself.
+/// A part of the signer with its own lane.
 enum class Channel : std::uint8_t {
-  body,    ///< root, trunk, head, legs; of a rig whose hands are not known all of it
+  body,    ///< root, trunk, head, legs; everything for a rig with unknown hands
   left,    ///< arm and fingers
   right,   ///< arm and fingers
   tracks,  ///< scalar tracks, such as those of a face
@@ -82,23 +81,23 @@ inline constexpr std::array kChannels = {Channel::body, Channel::left, Channel::
 std::string_view name_of(Channel channel) noexcept;
 std::string_view name_of(SourceRef::Kind kind) noexcept;
 
-/// One channel over all of the output: items without a hole and without an overlap. Clips and transitions take turns.
+/// One channel over the whole output: items without holes or overlaps. Clips and transitions alternate.
 struct Lane {
   Channel channel = Channel::body;
   std::vector<Item> items;
   friend bool operator==(const Lane&, const Lane&) = default;
 };
 
-/// How the junction between two clips is made, whatever the lanes.
+/// Options of the junction between two clips, common to all lanes.
 struct JunctionRef {
-  std::size_t number = 1;  ///< by which it is named: 1 is where the first two places meet
-  std::string method;      ///< that makes its frames
-  std::string chosen;      ///< what was asked for it alone, see JunctionChoice; empty: nothing
+  std::size_t number = 1;  ///< number used to refer to it: 1 is between the first two places
+  std::string method;      ///< method that generates its frames
+  std::string chosen;      ///< options given for it alone, see JunctionChoice; empty: none
   friend bool operator==(const JunctionRef&, const JunctionRef&) = default;
 };
 
 struct Score {
-  SourceRef skeleton;  ///< the recording whose joints the output has
+  SourceRef skeleton;  ///< the recording that defines the output's joints
   FrameRate rate;
   std::int64_t frames = 0;             ///< of the output
   std::vector<Clip> clips;             ///< in the order of the utterance; [ClipId]
@@ -107,14 +106,15 @@ struct Score {
   friend bool operator==(const Score&, const Score&) = default;
 };
 
-/// A day of signing at a hundred frames a second. Frame rates come from files: a wrong one must not ask for a terabyte.
+/// A day of signing at a hundred frames a second. Frame rates come from files; a wrong one must not allocate a
+/// terabyte.
 inline constexpr std::int64_t kMostFrames = std::int64_t{24} * 60 * 60 * 100;
 
-/// Throws Error{bad_input, "WHERE: what is wrong, what would mend it"} where a score cannot be rendered, whatever the
-/// recordings: numbers out of range, lanes with holes, clips that are not in order.
+/// Throws Error{bad_input, "WHERE: problem, how to fix it"} if a score cannot be rendered from any recordings: numbers
+/// out of range, lanes with holes, clips out of order.
 void check(const Score& score, const std::string& where);
 
-/// A line for each clip and each junction, for people.
+/// Human-readable text with a line for each clip and each junction.
 std::string to_string(const Score& score);
 
 }  // namespace signweave

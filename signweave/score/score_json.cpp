@@ -81,14 +81,14 @@ Json json_of(const Item& item) {
   return json;
 }
 
-/// Lists of numbers on one line each, so that people can read the whole.
+/// Puts each list of numbers on one line, for readability.
 std::string with_short_lists(const std::string& json) {
   std::string text;
   bool in_string = false;
   for (std::size_t i = 0; i < json.size(); ++i) {
     const char c = json[i];
     if (c == '"') in_string = !in_string;
-    if (in_string && c == '\\') {  // with what it escapes
+    if (in_string && c == '\\') {  // including the escaped character
       text += json.substr(i++, 2);
       continue;
     }
@@ -105,7 +105,7 @@ std::string with_short_lists(const std::string& json) {
   return text;
 }
 
-/// A value and where it is.
+/// A value and its path in the document.
 class Value {
  public:
   Value(const std::string& file, const Json& json, std::string place)
@@ -308,7 +308,7 @@ Score score_from_json(std::string_view text, const std::string& file) {
     const std::size_t byte = std::min<std::size_t>(error.byte, text.size());
     const auto line = 1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(byte), '\n');
     throw Error(ErrorCode::bad_input,
-                fmt::format("{}:{}: this is no JSON; scores are written by signing or editing", file, line));
+                fmt::format("{}:{}: this is not JSON; scores are written by signing or editing", file, line));
   } catch (const Json::exception&) {
     throw Error(ErrorCode::bad_input, fmt::format("{}: a number that is too large for any member of a score", file));
   }

@@ -19,7 +19,7 @@ inline std::shared_ptr<const Skeleton> small_skeleton(float arm = 0.3f) {
                                           std::vector<Tip>{{3, {0.1f, 0, 0}}});
 }
 
-/// A motion in which every joint turns all the time, in its own way for each `seed`.
+/// A motion in which every joint turns continuously, differently for each `seed`.
 inline Motion moving(std::int64_t frames, FrameRate rate, float seed,
                      std::shared_ptr<const Skeleton> skeleton = small_skeleton()) {
   Motion motion(std::move(skeleton), rate, frames);
@@ -36,7 +36,7 @@ inline Motion moving(std::int64_t frames, FrameRate rate, float seed,
   return motion;
 }
 
-/// A clip of one sign: preparation, stroke and retraction of so many frames, out of a longer recording.
+/// A clip of one sign with these frame counts of preparation, stroke and retraction, from a longer recording.
 inline MotionClip clip(const std::string& name, float seed, std::int64_t preparation, std::int64_t stroke,
                        std::int64_t retraction, FrameRate rate = {100, 1},
                        std::shared_ptr<const Skeleton> skeleton = small_skeleton()) {
@@ -59,7 +59,7 @@ inline MotionClip clip(const std::string& name, float seed, std::int64_t prepara
   return result;
 }
 
-/// The recording that such a clip is from.
+/// The recording of such a clip.
 inline const Motion& motion_of(const MotionClip& clip) {
   return dynamic_cast<const MemorySource&>(*clip.source).motion();
 }

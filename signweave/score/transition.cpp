@@ -7,12 +7,12 @@
 namespace signweave {
 namespace {
 
-/// Context of a tenth of a second on either side: long enough to tell a velocity from noise.
+/// Context of a tenth of a second on either side: long enough to distinguish a velocity from noise.
 std::int64_t context_frames(double frames_per_second) noexcept {
   return std::max<std::int64_t>(1, std::llround(0.1 * frames_per_second));
 }
 
-/// Keeps `total` frames of both sides together, shared out as they were captured; fewer where fewer were.
+/// Keeps `total` frames of both sides together, in proportion to the captured frames; fewer if fewer were captured.
 void keep(const TransitionRoom& room, std::int64_t total, TransitionCut& cut) noexcept {
   const std::int64_t both = room.retraction + room.preparation;
   if (both <= total) {
@@ -27,7 +27,7 @@ void keep(const TransitionRoom& room, std::int64_t total, TransitionCut& cut) no
   cut.preparation_frames = total - cut.retraction_frames;
 }
 
-/// A third of the transition, in which one pose turns into another. Where it is much shorter the hands have to leap.
+/// A third of the transition, for changing from one pose to another. If it is much shorter, the hands jump.
 std::int64_t third(const TransitionRoom& room) noexcept {
   return (room.length + 2) / 3;
 }
@@ -43,7 +43,7 @@ TransitionCut cut_with_gap(const TransitionRoom& room) noexcept {
 namespace {
 
 /// Reading "overlap": the p frames of each side are cross-faded, length = m_i + m_j − p, with p a third of the length.
-/// Where the captured frames do not reach that far, or a pause lies between, the middle third is made as a gap.
+/// If there are too few captured frames, or there is a pause, the middle third is generated as a gap.
 TransitionCut cut_for_overlap(const TransitionRoom& room) {
   const std::int64_t faded = third(room);
   const std::int64_t total = room.length + faded;
@@ -52,14 +52,14 @@ TransitionCut cut_for_overlap(const TransitionRoom& room) {
   }
   TransitionCut cut{.length = room.length, .blend_frames = faded};
   keep(room, total, cut);
-  // Each side has to reach over the whole cross-fade, and no further than the transition.
+  // Each side has to cover the whole cross-fade, and at most the transition.
   cut.retraction_frames = std::clamp(cut.retraction_frames, faded, room.length);
   cut.preparation_frames = total - cut.retraction_frames;
   return cut;
 }
 
-/// Reading "gap": at most a quarter of the transition is kept on each side, the rest is made; p frames of context give
-/// position and velocity at each border.
+/// Reading "gap": at most a quarter of the transition is kept on each side, the rest is generated; p frames of context
+/// give position and velocity at each border.
 TransitionCut cut_for_gap(const TransitionRoom& room) {
   if (room.pause) return cut_with_gap(room);
   TransitionCut cut{.length = room.length, .blend_frames = context_frames(room.frames_per_second)};
@@ -68,7 +68,7 @@ TransitionCut cut_for_gap(const TransitionRoom& room) {
   return cut;
 }
 
-/// One row for a user: the paper's readings, then everything that fills gaps.
+/// The methods offered to users: the paper's readings, then all gap methods.
 std::vector<TransitionMethod> make_table() {
   const GapMethod* const coasting = find_gap_method("gap");
   std::vector<TransitionMethod> table;
@@ -80,9 +80,9 @@ std::vector<TransitionMethod> make_table() {
   const TransitionMethod overlap{
       "overlap", "cross-fades the end of one retraction with the begin of the next preparation (the paper)",
       cut_for_overlap, coasting};
-  const TransitionMethod gap{"gap", "makes the middle anew from pose and velocity at both borders (the paper)",
+  const TransitionMethod gap{"gap", "generates the middle from pose and velocity at both borders (the paper)",
                              cut_for_gap, coasting};
-  // The default stays first.
+  // The default is first.
   table.insert(table.begin() + (table.empty() ? 0 : 1), {overlap, gap});
   return table;
 }

@@ -23,11 +23,11 @@ RC_GTEST_PROP(TransitionCut, EveryMethodFillsTheWholeTransitionFromWhatThereIs, 
     RC_ASSERT(cut.overlap() <= std::min(cut.retraction_frames, cut.preparation_frames));
     RC_ASSERT(cut.retraction_frames + cut.preparation_frames - cut.overlap() + cut.gap() == room.length);
     RC_ASSERT(cut.blend_frames >= 0);
-    RC_ASSERT(3 * std::max(cut.overlap(), cut.gap()) >= room.length);  // the hands need not leap
+    RC_ASSERT(3 * std::max(cut.overlap(), cut.gap()) >= room.length);  // the hands need not jump
   }
 }
 
-TEST(TransitionMethods, AreThePapersReadingsAndWhateverFillsGapsForSigning) {
+TEST(TransitionMethods, AreThePapersReadingsAndTheGapMethodsForSigning) {
   std::vector<std::string_view> names;
   for (const TransitionMethod& method : transition_methods()) {
     names.push_back(method.name);
@@ -56,7 +56,7 @@ TEST(TransitionCut, ASignWithoutRetractionLeavesAGap) {
   EXPECT_EQ(cut.overlap(), 0);
 }
 
-TEST(TransitionCut, WhereTheCapturedFramesHardlyMeetTheMiddleIsMade) {
+TEST(TransitionCut, WithFewCapturedFramesTheMiddleIsGenerated) {
   const TransitionCut cut = find_transition_method("overlap")->cut({.length = 60, .retraction = 30, .preparation = 28});
   EXPECT_EQ(cut.overlap(), 0);
   EXPECT_EQ(cut.gap(), 20);

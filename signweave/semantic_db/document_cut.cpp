@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::string_view kBlank = " \t\r\n";
 
-/// A tag: its name, whether it opens, closes or does both, and where it lies.
+/// A tag: its name, whether it opens, closes or does both, and its position.
 struct Tag {
   std::string_view text;  ///< with its brackets
   std::string_view name;
@@ -24,12 +24,12 @@ struct Tag {
   std::size_t end = 0;
 };
 
-/// The tags of a text one after another; comments, CDATA and processing instructions are passed over.
+/// The tags of a text in order; comments, CDATA and processing instructions are skipped.
 class Tags {
  public:
   explicit Tags(std::string_view text) : text_(text) {}
 
-  /// None at the end, or where the text is not what we understand: see `understood`.
+  /// nullopt at the end, or if the text is not understood: see `understood`.
   std::optional<Tag> next() {
     for (;;) {
       const std::size_t begin = text_.find('<', at_);
@@ -67,7 +67,7 @@ class Tags {
     return true;
   }
 
-  /// Behind the '>' that is in no quotes.
+  /// The position after the '>' that is outside quotes.
   std::size_t end_of_tag(std::size_t begin) const noexcept {
     for (std::size_t i = begin; i < text_.size(); ++i) {
       if (text_[i] == '>') return i + 1;
@@ -95,7 +95,7 @@ class Tags {
   bool understood_ = true;
 };
 
-/// An attribute's value as the readers see it; empty where it is missing.
+/// An attribute's value as the readers see it; empty if it is missing.
 std::string attribute(const Tag& tag, std::string_view wanted) {
   const std::string_view text = tag.text;
   for (std::size_t at = text.find_first_of(kBlank); at != text.npos;) {
@@ -121,15 +121,15 @@ std::string attribute(const Tag& tag, std::string_view wanted) {
   return {};
 }
 
-/// The elements of a format that matter here.
+/// The relevant elements of a format.
 struct Names {
   std::string_view root;
-  std::string_view body;  ///< that tiers stand in; empty: the root itself
+  std::string_view body;  ///< element around the tiers; empty: the root itself
   std::string_view tier;
-  std::string_view tier_name;  ///< attribute
-  std::string_view group;      ///< that pieces may stand in; empty: none
+  std::string_view tier_name;  ///< attribute with the tier's name
+  std::string_view group;      ///< element that may surround pieces; empty: none
   std::string_view piece;
-  std::array<std::string_view, 2> annotations;  ///< elements in a piece that have the id; empty: it is counted
+  std::array<std::string_view, 2> annotations;  ///< elements in a piece that have the id; empty: the id is its number
 };
 
 constexpr Names kEaf{.root = "ANNOTATION_DOCUMENT",
@@ -160,7 +160,7 @@ class Cutter {
     if (tag.closes || tag.empty) close(tag);
   }
 
-  /// False where the text is none that the readers accept.
+  /// False if the readers would not accept the text.
   bool whole() const noexcept { return depth_ == 0 && !in_tier_; }
 
   Cut take() {
@@ -176,7 +176,7 @@ class Cutter {
   }
 
  private:
-  /// Or nothing, which is UTF-8 too.
+  /// Whether the declaration names UTF-8 or no encoding, which also means UTF-8.
   bool declares_utf8() const {
     std::string_view head = text_.substr(0, text_.find("?>"));
     if (head.starts_with("\xEF\xBB\xBF")) head.remove_prefix(3);
@@ -247,7 +247,7 @@ class Cutter {
   Cut cut_;
   std::int64_t depth_ = 1;  ///< the root is open
   std::int64_t tier_depth_ = 0;
-  std::int64_t piece_depth_ = 0;  ///< 0: in no piece
+  std::int64_t piece_depth_ = 0;  ///< 0: outside any piece
   int bodies_ = 0;
   bool in_body_ = false;
   bool in_group_ = false;

@@ -27,18 +27,18 @@ std::optional<DocumentStorage> parse_document_storage(std::string_view name) noe
 namespace signweave::semantic_db {
 namespace {
 
-// Keys: a letter, the generation and, where there are several, a u32 number.
+// Keys: a letter, the generation and, if there are several records, a u32 number.
 constexpr char kWhole = 'D';          // the text, in `document` storage
 constexpr char kSpecification = 'X';  // of ANVIL
-constexpr char kDirectory = 'N';      // in `node` storage: what there is
-constexpr char kFrame = 'T';   // 0: the text between the tiers; n: of tier n - 1 the text between its annotations
+constexpr char kDirectory = 'N';      // in `node` storage: the directory
+constexpr char kFrame = 'T';   // 0: the text between the tiers; n: the text between the annotations of tier n - 1
 constexpr char kPiece = 'A';   // one annotation
-constexpr char kBucket = 'B';  // which piece has which id
+constexpr char kBucket = 'B';  // maps ids to pieces
 
 constexpr std::uint8_t kVersion = 1;
 constexpr std::size_t kIdsPerBucket = 64;
 
-/// A record and where it goes.
+/// A record and its key.
 struct Made {
   Bytes key;
   Bytes content;  ///< not sealed yet
@@ -53,7 +53,7 @@ struct DirectoryTier {
 struct Directory {
   bool exact = false;
   std::uint32_t pieces = 0;
-  std::uint32_t buckets = 0;  ///< a power of two, or none
+  std::uint32_t buckets = 0;  ///< a power of two, or 0
   std::string around;
   std::string closing;
   std::vector<DirectoryTier> tiers;
@@ -63,7 +63,7 @@ std::size_t bucket_of(std::string_view id, std::uint32_t buckets) {
   return static_cast<std::size_t>(checksum(bytes_of(id)) & (buckets - 1));
 }
 
-/// Everything of a document in `node` storage.
+/// All records of a document in `node` storage.
 std::vector<Made> node_records(std::uint64_t generation, std::string_view text) {
   const Cut cut = cut_document(text);
   const auto pieces = static_cast<std::uint32_t>(cut.pieces.size());
@@ -122,7 +122,7 @@ std::vector<Made> node_records(std::uint64_t generation, std::string_view text) 
   return records;
 }
 
-/// A document in `node` storage, read as far as is asked for.
+/// A document in `node` storage; only requested parts are read.
 class Nodes {
  public:
   Nodes(const kv::ReadTransaction& snapshot, std::uint64_t generation, const std::string& where)
@@ -169,15 +169,15 @@ class Nodes {
     return text;
   }
 
-  /// Place of the tier of this name, or the number of tiers.
+  /// Index of the tier with this name, or the number of tiers.
   std::size_t find_tier(std::string_view name) const noexcept {
     const auto at = std::ranges::find(directory_.tiers, name, &DirectoryTier::name);
     return static_cast<std::size_t>(at - directory_.tiers.begin());
   }
 
-  /// The tier that a piece is of.
+  /// The tier of a piece.
   std::size_t tier_of(std::uint32_t piece) const noexcept {
-    // The last that begins at it or before; those of no pieces lie before their successor's begin.
+    // The last tier whose first piece is not after it; tiers without pieces begin where their successor begins.
     const auto after = std::ranges::upper_bound(directory_.tiers, piece, {}, &DirectoryTier::first_piece);
     return static_cast<std::size_t>(after - directory_.tiers.begin()) - 1;
   }
@@ -220,7 +220,7 @@ class Nodes {
   }
 
  private:
-  /// Lent by the store, until the snapshot ends or, with some engines, the next record is read.
+  /// Borrowed from the store until the snapshot ends or, with some engines, the next record is read.
   ByteSpan record(const Bytes& key) const {
     const auto found = snapshot_.get(key, buffer_);
     if (!found) ByteReader({}, where_).fail("a part of it is missing");
@@ -266,7 +266,7 @@ void erase_document(kv::WriteTransaction& transaction, std::uint64_t generation)
   transaction.erase(key_of(kWhole, generation));
   transaction.erase(key_of(kSpecification, generation));
   transaction.erase(key_of(kDirectory, generation));
-  // Numbers have no gaps, so a directory that is damaged is not needed.
+  // Numbers are contiguous, so this works even if the directory is damaged.
   for (const char what : {kFrame, kPiece, kBucket}) {
     for (std::size_t i = 0; transaction.erase(key_of(what, generation, i)); ++i) {
     }
@@ -343,7 +343,7 @@ std::vector<StoredAnnotation> read_tier(const kv::ReadTransaction& snapshot, std
   std::vector<StoredAnnotation> list;
   for (std::size_t i = 0; found != cut.tiers.end() && i < found->pieces; ++i) {
     list.push_back(annotation_at(text, *found, cut.pieces[found->first_piece + i]));
-    // The numbers of ANVIL's elements are those of the whole document.
+    // ANVIL's elements are numbered over the whole document.
     if (in_nodes && text.starts_with("<annotation")) list.back().id = fmt::format("a{}", first + i + 1);
   }
   return list;

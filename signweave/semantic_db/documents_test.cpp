@@ -20,7 +20,7 @@ using testing::ElementsAre;
 using testing::IsEmpty;
 using testing::SizeIs;
 
-/// A store in which generation 1 is kept as one text and generation 2 cut.
+/// A store with generation 1 in `document` storage and generation 2 in `node` storage.
 class Both {
  public:
   explicit Both(const std::string& engine = "lmdb") {
@@ -40,14 +40,14 @@ class Both {
 
   kv::KvStore& store() { return *store_; }
 
-  /// How many records there are under a generation.
+  /// The number of records under a generation.
   std::size_t records(std::uint64_t generation) const {
     std::size_t count = 0;
     store_->visit([&](ByteSpan key, std::size_t) { count += generation_of(key) == generation ? 1 : 0; });
     return count;
   }
 
-  /// Makes every record of generation 2 unreadable but those that `spare` says.
+  /// Makes every record of generation 2 unreadable except those that `spare` selects.
   void break_all_but(const std::function<bool(char letter, std::uint32_t number)>& spare) {
     std::vector<Bytes> keys;
     store_->visit([&](ByteSpan key, std::size_t) { keys.emplace_back(key.begin(), key.end()); });
@@ -88,7 +88,7 @@ TEST(DocumentCut, FindsTiersAndAnnotations) {
   EXPECT_TRUE(cut.exact);
 }
 
-TEST(DocumentCut, WhatIsThereTwiceOrElsewhereIsNotExact) {
+TEST(DocumentCut, DuplicateOrMisplacedElementsAreNotExact) {
   const auto exact = [](std::string_view tiers) {
     return cut_document("<ANNOTATION_DOCUMENT>" + std::string(tiers) + "</ANNOTATION_DOCUMENT>").exact;
   };
@@ -102,7 +102,7 @@ TEST(DocumentCut, WhatIsThereTwiceOrElsewhereIsNotExact) {
             "<ANNOTATION><REF_ANNOTATION ANNOTATION_ID='a'/></ANNOTATION></TIER>"));
 }
 
-TEST(DocumentCut, WhatItDoesNotUnderstandIsNotCut) {
+TEST(DocumentCut, AnUnknownTextIsNotCut) {
   EXPECT_THAT(cut_document("").tiers, IsEmpty());
   EXPECT_THAT(cut_document("<other><TIER TIER_ID='x'/></other>").tiers, IsEmpty());
   EXPECT_THAT(cut_document("<ANNOTATION_DOCUMENT><TIER TIER_ID='x'>").tiers, IsEmpty());
@@ -113,7 +113,7 @@ TEST(DocumentCut, WhatItDoesNotUnderstandIsNotCut) {
   EXPECT_THAT(cut_document(std::string("<\0A\0>\0", 6)).tiers, IsEmpty());
 }
 
-TEST(DocumentCut, NamesAreReadAsTheReaderReadsThem) {
+TEST(DocumentCut, NamesAreParsedAsTheReaderParsesThem) {
   const Cut cut = cut_document(
       "<ANNOTATION_DOCUMENT><TIER X='TIER_ID=\"no\"' TIER_ID = 'a &lt;&#x41;\n&apos;'/>"
       "</ANNOTATION_DOCUMENT>");
@@ -125,7 +125,7 @@ class DocumentsTest : public testing::TestWithParam<std::string> {};
 INSTANTIATE_TEST_SUITE_P(Engines, DocumentsTest, testing::ValuesIn(kv::engines()),
                          [](const auto& row) { return row.param; });
 
-TEST_P(DocumentsTest, EitherWayGivesTheBytesBack) {
+TEST_P(DocumentsTest, BothStoragesReturnTheBytes) {
   Both both(GetParam());
   both.put(kSmall, "<annotation-spec/>");
   const auto snapshot = both.store().read();
@@ -183,7 +183,7 @@ TEST_P(DocumentsTest, OneTierIsReadWithoutTheOthers) {
   EXPECT_THROW(read_document(*snapshot, 2, "r"), Error);
 }
 
-TEST(Documents, ExcerptsHoldWhatIsAskedFor) {
+TEST(Documents, ExcerptsContainTheRequestedElements) {
   Both both;
   both.put(kSmall);
   const auto snapshot = both.store().read();
@@ -195,11 +195,11 @@ TEST(Documents, ExcerptsHoldWhatIsAskedFor) {
   EXPECT_EQ(read_excerpt(*snapshot, 1, ExcerptOf::tier, "Gloss", "r"), std::nullopt) << "in one record";
 }
 
-TEST(Documents, ARecordThatIsNotTheDocumentsIsFound) {
+TEST(Documents, ARecordThatDoesNotMatchTheDocumentIsFound) {
   Both both;
   both.put(kSmall);
   {
-    // The third annotation is gone from the index, which no reading of the whole would tell.
+    // The third annotation is missing from the index, which reading the whole document would not reveal.
     const auto transaction = both.store().write();
     ByteWriter key;
     key.number('B');
@@ -216,7 +216,7 @@ TEST(Documents, ARecordThatIsNotTheDocumentsIsFound) {
 }
 
 RC_GTEST_PROP(DocumentsProperty, BothStoragesGiveTheSameBytesTiersAndAnnotations, ()) {
-  static Both both;  // opening a store for each document would take the time
+  static Both both;  // opening a store per document would be slow
   const std::string text = pick(3) == 0 ? anvil_text(true) : eaf_text(true);
   both.put(text);
   const auto snapshot = both.store().read();
@@ -230,7 +230,7 @@ RC_GTEST_PROP(DocumentsProperty, BothStoragesGiveTheSameBytesTiersAndAnnotations
     RC_ASSERT(tier == read_tier(*snapshot, 1, name, "r"));
     pieces += tier.size();
     for (const StoredAnnotation& one : tier) {
-      if (!cut.exact) continue;  // an id that is there twice is found once
+      if (!cut.exact) continue;  // of a duplicate id only one is found
       RC_ASSERT(read_annotation(*snapshot, 2, one.id, "r") == one);
       RC_ASSERT(read_annotation(*snapshot, 1, one.id, "r") == one);
     }
@@ -238,7 +238,7 @@ RC_GTEST_PROP(DocumentsProperty, BothStoragesGiveTheSameBytesTiersAndAnnotations
   if (cut.exact) RC_ASSERT(pieces == cut.pieces.size());
 }
 
-RC_GTEST_PROP(DocumentsProperty, AnyBytesComeBack, (const std::string& bytes)) {
+RC_GTEST_PROP(DocumentsProperty, AnyBytesAreReturned, (const std::string& bytes)) {
   static Both both;
   const std::string text =
       pick(2) == 0 ? bytes : eaf_text(true).substr(0, static_cast<std::size_t>(pick(2000))) + bytes;

@@ -7,8 +7,9 @@
 
 namespace signweave::semantic_db {
 
-// One letter for what the record is, then the generation: 'D' document, 'S' segments, 'F' features, 'I' segment table.
-// What there is once in a database has a key of the letter alone: 'W' what was learned, 'L' list of the segment tables.
+// One letter for the kind of record, then the generation: 'D' document, 'S' segments, 'F' features, 'I' segment table.
+// Records that exist once per database have a key of the letter alone: 'W' learned weights, 'L' list of the segment
+// tables.
 
 inline Bytes key_of(char what, std::uint64_t generation) {
   ByteWriter key;
@@ -17,7 +18,7 @@ inline Bytes key_of(char what, std::uint64_t generation) {
   return key.take();
 }
 
-/// Of one of several records of that letter.
+/// The key of one of several records with that letter.
 inline Bytes key_of(char what, std::uint64_t generation, std::size_t number) {
   ByteWriter key;
   key.number(what);

@@ -11,7 +11,7 @@
 namespace signweave {
 namespace {
 
-/// Appends lists, each from a multiple of 8 on.
+/// Appends lists, each aligned to 8 bytes.
 class ListWriter {
  public:
   template <typename T>
@@ -49,7 +49,7 @@ struct JoinedTexts {
 
 /// Rows by label, then kind, then row; without units.
 struct LabelLists {
-  std::vector<std::uint32_t> begins;  ///< [text], and one more
+  std::vector<std::uint32_t> begins;  ///< [text], and one more entry
   std::vector<RowId> rows;
   std::array<std::vector<std::uint32_t>, 3> of_kinds;
 };
@@ -104,7 +104,7 @@ ChildLists child_lists(const TableLists& lists) {
   for (RowId row = 0; row < lists.rows(); ++row) {
     if (lists.parents[row] != kNoRow) made.rows[next[lists.parents[row]]++] = row;
   }
-  // Children may lie on several tiers, and rows are ordered by tier first.
+  // Children may be on several tiers, and rows are ordered by tier first.
   const auto earlier = [&](RowId a, RowId b) {
     return std::tuple(lists.spans[a].begin, lists.spans[a].end, a) <
            std::tuple(lists.spans[b].begin, lists.spans[b].end, b);

@@ -11,7 +11,7 @@
 namespace signweave {
 
 // The bytes of a SegmentTable. All numbers are little-endian, every list begins at a multiple of 8 bytes from the
-// start, and the lists stand in the order below, each as long as the head says:
+// start, and the lists are in the order below, with the lengths given by the head:
 //
 //   u32 version = 1 | u32 wide (0 or 1) | u32 × 19 counts, in the order of TableCounts | u32 0
 //   texts        u32 × (texts + 1) begins | their characters (UTF-8)         tiers, recordings: likewise
@@ -22,10 +22,11 @@ namespace signweave {
 //   rows         i32 × rows begins, i32 × rows ends (wide: i64 × 2 × rows) | u32 × rows text | u32 × rows parent
 //                u32 × rows place | u16 × rows flags | u32 × (rows + 1) first child | u32 × children
 //
-// Slots are an open hash table of the texts: the text i is in the first of the slots from checksum(text) & (slots − 1)
-// on that was free when it came, in the order of the numbers; slots is a power of two, and at least one stays free.
+// A place is one tier of one recording. Slots are an open hash table of the texts, inserted in the order of their
+// numbers: text i is in the first slot from checksum(text) & (slots − 1) onwards that was free at that time. The number
+// of slots is a power of two, and at least one stays free.
 
-/// How long the lists are.
+/// Lengths of the lists.
 struct TableCounts {
   std::uint32_t texts, text_bytes;
   std::uint32_t tiers, tier_bytes;
@@ -46,13 +47,13 @@ static_assert(kTableHead % 8 == 0);
 /// Annotations, signs and phases; units have no labels.
 inline constexpr std::size_t kListedKinds = 3;
 
-/// What a table is made of, before its indexes are.
+/// The lists a table is built from, without its indexes.
 struct TableLists {
   std::vector<std::string> texts, tiers, recordings;
   std::vector<std::uint32_t> labels_of_texts;
   std::vector<std::uint32_t> recording_tiers = {0}, recording_begins = {0};
   std::vector<SegmentTable::TierRows> places;
-  std::vector<TimeSpan> spans;  ///< [row], as are the others
+  std::vector<TimeSpan> spans;  ///< [row], as are the following
   std::vector<std::uint32_t> texts_of_rows, places_of_rows;
   std::vector<RowId> parents;
   std::vector<std::uint16_t> flags;
@@ -60,16 +61,16 @@ struct TableLists {
   RowId rows() const noexcept { return static_cast<RowId>(spans.size()); }
 };
 
-/// Makes and reads those bytes.
+/// Writes and reads these bytes.
 class TableBytes {
  public:
   static std::uint16_t flags_of(const SegmentRow& row) noexcept;
-  /// Throws Error{unsupported} where a count does not fit 32 bits.
+  /// Throws Error{unsupported} if a count does not fit in 32 bits.
   static Bytes write(const TableLists& lists);
   /// As SegmentTable::open.
   static SegmentTable open(ByteSpan bytes, std::shared_ptr<const void> owner, const std::string& where);
-  /// Of a sealed record (kv/sealed.h). Throws Error{corrupt} also where the checksum does not fit, and says that before
-  /// anything else that is wrong.
+  /// The same for a sealed record (kv/sealed.h). Also throws Error{corrupt} if the checksum does not match; that error
+  /// takes precedence over all others.
   static SegmentTable open_sealed(ByteSpan record, std::shared_ptr<const void> owner, const std::string& where);
 
  private:

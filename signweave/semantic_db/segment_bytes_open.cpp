@@ -8,13 +8,13 @@
 #include "signweave/kv/sealed.h"
 #include "signweave/semantic_db/segment_bytes.h"
 
-// Bytes of a table are looked at before they are used: no number in them leads outside.
+// The bytes of a table are validated before use, so that no number in them leads outside.
 
 namespace signweave {
 namespace {
 
-/// All numbers are below `bound`; with `or_none`, or kNone. No loop ends early, so that the compiler can take several
-/// numbers at once.
+/// All numbers are below `bound`, or kNone with `or_none`. The loop does not exit early, so that the compiler can
+/// vectorise it.
 struct Below {
   std::uint32_t bound = 0;
   const char* what = "";
@@ -31,11 +31,11 @@ struct Below {
   }
 };
 
-/// The numbers go from 0 to `last` and never down. Blocks must come in order.
+/// The numbers rise from 0 to `last` and never fall. Blocks must come in order.
 struct Ascending {
   std::uint32_t last = 0;
   const char* what = "";
-  std::size_t count = 0;  ///< of all blocks
+  std::size_t count = 0;  ///< numbers in all blocks
   std::uint32_t before = 0;
 
   const char* operator()(std::span<const std::uint32_t> values, std::size_t at) {
@@ -48,13 +48,13 @@ struct Ascending {
   }
 };
 
-/// The kinds are two bits; phases go to 4, hands to 2, and a phase has its sign.
+/// Kinds have two bits; phases go up to 4, hands up to 2, and a phase must have its sign.
 struct Flags {
   std::span<const RowId> parents;
 
   const char* operator()(std::span<const std::uint16_t> values, std::size_t at) const {
     constexpr std::size_t kStep = 4096;
-    std::array<std::uint16_t, kStep> alone;  // [row] 1: no parent. As wide as the flags, which keeps both loops fast
+    std::array<std::uint16_t, kStep> alone;  // [row] 1: no parent. As wide as the flags, so both loops are fast
     std::uint16_t bad = 0;
     for (std::size_t first = 0; first < values.size(); first += kStep) {
       const std::size_t count = std::min(kStep, values.size() - first);
@@ -73,7 +73,7 @@ struct Flags {
   }
 };
 
-/// What no check is needed for: any number will do.
+/// No check is needed: any number is valid.
 struct Anything {
   template <typename T>
   const char* operator()(std::span<const T>, std::size_t) const {
@@ -83,13 +83,13 @@ struct Anything {
 
 }  // namespace
 
-/// Takes list after list, and looks whether what is in it may be used as it is. Memory is gone through once: of each
-/// block the checksum is taken, and while it is in the cache its numbers are looked at.
+/// Takes list after list, and checks that its contents can be used as they are. Memory is read once: the checksum of
+/// each block is computed and, while the block is in the cache, its numbers are checked.
 class TableBytes::Reader {
  public:
   Reader(ByteSpan bytes, const std::string& where, RunningChecksum* sum) : in_(bytes, where), sum_(sum) {}
 
-  /// check(values, place of the first among all) of every block tells what is wrong with it, or null.
+  /// For every block, check(values, index of the first value) returns a description of what is wrong, or null.
   template <typename T, typename Check>
   std::span<const T> list(std::size_t count, Check check) {
     const ByteSpan taken = in_.take((count * sizeof(T) + 7) / 8 * 8);
@@ -109,11 +109,11 @@ class TableBytes::Reader {
   std::span<const std::uint32_t> below(std::size_t count, std::uint32_t bound, const char* what) {
     return list<std::uint32_t>(count, Below{.bound = bound, .what = what});
   }
-  /// The same, or kNone.
+  /// The same, but kNone is allowed.
   std::span<const std::uint32_t> below_or_none(std::size_t count, std::uint32_t bound, const char* what) {
     return list<std::uint32_t>(count, Below{.bound = bound, .what = what, .or_none = true});
   }
-  /// From 0 to `last`; one more than `count`.
+  /// From 0 to `last`; `count` + 1 numbers.
   std::span<const std::uint32_t> ascending(std::size_t count, std::uint32_t last, const char* what) {
     return list<std::uint32_t>(count + 1, Ascending{.last = last, .what = what, .count = count + 1});
   }
@@ -146,7 +146,7 @@ SegmentTable TableBytes::open_sealed(ByteSpan record, std::shared_ptr<const void
     if (sum.value() != expected) in.fail("its checksum does not fit");
     return table;
   } catch (const Error&) {
-    kv::unsealed(record, where);  // where the checksum does not fit, that is what is wrong
+    kv::unsealed(record, where);  // a checksum that does not match is reported first
     throw;
   }
 }

@@ -12,7 +12,7 @@ using testing::HasSubstr;
 
 constexpr const char* kWhere = "table";
 
-/// So many signs, each with its stroke: most lists are longer than what is looked at in one piece.
+/// This many signs with a stroke each: most lists are longer than one block of the check.
 SegmentTable large_table() {
   constexpr int kSigns = 20'000;
   SegmentChunk chunk{.tiers = {"Gloss", "Phase"}, .labels = {"stroke"}, .rows = {}};
@@ -32,7 +32,7 @@ SegmentTable large_table() {
   return SegmentTable(std::span(&source, 1));
 }
 
-/// Where each list stands, by the drawing in segment_bytes.h.
+/// Offsets of the lists, by the layout in segment_bytes.h.
 struct Places {
   TableCounts counts{};
   std::size_t at = kTableHead;
@@ -54,7 +54,7 @@ std::string refusal(const Bytes& bytes) {
   return "taken as it is";
 }
 
-/// The message where the number at a place is another.
+/// The message if the number at an offset is replaced.
 template <typename T>
 std::string refusal_with(Bytes bytes, std::size_t at, T value) {
   std::memcpy(bytes.data() + at, &value, sizeof value);
@@ -68,7 +68,7 @@ struct ListOf {
   const char* message = "";
 };
 
-TEST(SegmentBytes, ANumberThatLeadsOutsideIsRefusedWhereverItStands) {
+TEST(SegmentBytes, AnOutOfRangeNumberIsRejectedInEveryList) {
   const SegmentTable table = large_table();
   const Bytes good(table.bytes().begin(), table.bytes().end());
   ASSERT_EQ(refusal(good), "taken as it is");
@@ -120,15 +120,15 @@ TEST(SegmentBytes, ANumberThatLeadsOutsideIsRefusedWhereverItStands) {
   }
   EXPECT_GT(tried, 80U);
 
-  // What only its neighbour in the piece before tells: the last of one piece is more than the first of the next.
+  // An error visible only across blocks: the last number of one block is greater than the first of the next.
   const std::size_t children = flags + (n.rows * sizeof(std::uint16_t) + 7) / 8 * 8;
   EXPECT_THAT(refusal_with(good, children + 16'384 * sizeof(std::uint32_t), std::uint32_t{1}),
               HasSubstr("children out of order"));
 
-  // A list that never goes down, and yet does not begin with 0.
+  // A list that never falls but does not begin with 0.
   EXPECT_THAT(refusal_with(good, children, std::uint32_t{1}), HasSubstr("children out of order"));
 
-  // Rows of no kind, phase or hand; a phase without a sign.
+  // Rows with an invalid kind, phase or hand; a phase without a sign.
   for (const std::size_t row : {0U, 4'095U, 4'096U, 20'000U, 32'768U, n.rows - 1}) {
     for (const unsigned bad : {1U << 9, 1U << 15, 5U << 2, 6U << 2, 7U << 2, 3U << 5}) {
       EXPECT_THAT(refusal_with(good, flags + row * sizeof(std::uint16_t), static_cast<std::uint16_t>(bad)),
@@ -160,7 +160,7 @@ TEST(SegmentBytes, ANumberThatLeadsOutsideIsRefusedWhereverItStands) {
   }
 }
 
-TEST(SegmentBytes, CountsThatAreNoneAreRefused) {
+TEST(SegmentBytes, InvalidCountsAreRejected) {
   const SegmentTable table = large_table();
   const Bytes good(table.bytes().begin(), table.bytes().end());
   for (std::size_t i = 0; i < sizeof(TableCounts) / sizeof(std::uint32_t); ++i) {
@@ -170,7 +170,7 @@ TEST(SegmentBytes, CountsThatAreNoneAreRefused) {
   }
 }
 
-TEST(SegmentBytes, AHeadThatIsNoneIsRefused) {
+TEST(SegmentBytes, AnInvalidHeadIsRejected) {
   const SegmentTable table = large_table();
   const Bytes good(table.bytes().begin(), table.bytes().end());
   const std::size_t rows = (2 + 17) * sizeof(std::uint32_t);
@@ -180,7 +180,7 @@ TEST(SegmentBytes, AHeadThatIsNoneIsRefused) {
   EXPECT_THAT(refusal_with(good, rows, kNoRow - 1), HasSubstr("damaged"));
 }
 
-TEST(SegmentBytes, ATableOfTextsHasRoomForOneMoreAndNothingComesAfterATable) {
+TEST(SegmentBytes, TheHashTableHasAFreeSlotAndNothingFollowsTheTable) {
   const SegmentTable table = large_table();
   Bytes good(table.bytes().begin(), table.bytes().end());
   const std::size_t slots = (2 + 7) * sizeof(std::uint32_t);
@@ -192,7 +192,7 @@ TEST(SegmentBytes, ATableOfTextsHasRoomForOneMoreAndNothingComesAfterATable) {
   EXPECT_THAT(refusal(good), HasSubstr("bytes are left over"));
 }
 
-TEST(SegmentBytes, OfASealedTableTheChecksumIsNamedFirst) {
+TEST(SegmentBytes, TheChecksumOfASealedTableIsReportedFirst) {
   const SegmentTable table = large_table();
   const Bytes good = kv::sealed(table.bytes());
   const SegmentTable read = TableBytes::open_sealed(good, {}, kWhere);
@@ -214,11 +214,11 @@ TEST(SegmentBytes, OfASealedTableTheChecksumIsNamedFirst) {
   }
 }
 
-TEST(SegmentBytes, ASealedTableWithAGoodChecksumIsLookedAtAllTheSame) {
+TEST(SegmentBytes, ASealedTableWithAGoodChecksumIsStillChecked) {
   const SegmentTable table = large_table();
   Bytes bytes(table.bytes().begin(), table.bytes().end());
   const std::uint32_t bad = kNoRow - 1;
-  std::memcpy(bytes.data() + bytes.size() - 2 * sizeof bad, &bad, sizeof bad);  // among the last, the children
+  std::memcpy(bytes.data() + bytes.size() - 2 * sizeof bad, &bad, sizeof bad);  // in the last list, the children
   try {
     TableBytes::open_sealed(kv::sealed(bytes), {}, kWhere);
     FAIL();

@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::uint32_t kNoTier = std::numeric_limits<std::uint32_t>::max();
 
-/// Some 31,000 years: far enough from the ends of int64 that sums of times cannot overflow.
+/// About 31,000 years: far enough from the limits of int64 that sums of times cannot overflow.
 constexpr std::int64_t kLatest = 1'000'000'000'000'000;
 
 bool is_time(Milliseconds time) noexcept {
@@ -37,13 +37,13 @@ class Strings {
   std::unordered_map<std::string, std::uint32_t> index_;
 };
 
-/// Builds the chunk of one document. Rows are made in the order of the document, then sorted.
+/// Builds the chunk of one document. Rows are built in document order, then sorted.
 class ChunkBuilder {
  public:
   ChunkBuilder(const AnnotationDocument& document, std::span<const Sign> signs) {
     add_annotations(document);
     link_parents(document);
-    // All signs before the first phase: no annotation of a sign tier may be taken for a phase.
+    // All signs before the first phase: no annotation of a sign tier may be used as a phase.
     std::vector<RowId> sign_rows;
     for (const Sign& sign : signs) sign_rows.push_back(add_sign(sign));
     for (std::size_t i = 0; i < signs.size(); ++i) {
@@ -90,7 +90,7 @@ class ChunkBuilder {
       for (const Annotation& annotation : tier.annotations) {
         if (!is_time(annotation.span.begin) || !is_time(annotation.span.end)) {
           throw Error(ErrorCode::bad_input,
-                      fmt::format("tier '{}': annotation '{}' lies {} years from the start; give it a time of its own",
+                      fmt::format("tier '{}': annotation '{}' is {} years from the start; correct its time",
                                   printable(tier.id), printable(annotation.id), kLatest / 31'557'600'000));
         }
         const auto row = static_cast<RowId>(rows_.size());
@@ -157,7 +157,7 @@ class ChunkBuilder {
                             printable(sign.gloss), printable(sign.tier), printable(sign.annotation)));
   }
 
-  /// The first row of that annotation which is no phase yet, else the first that is.
+  /// The first row of that annotation that is not yet a phase; otherwise the first that is.
   std::optional<RowId> row_of(const Sign& sign, const Phase& phase) {
     const std::vector<RowId>& rows = phase.annotation.empty()
                                          ? rows_of_span_[span_key(phase.span, labels_.number(phase.label))]
@@ -241,7 +241,7 @@ auto order_of(const SegmentRow& row) noexcept {
   return std::tuple(row.tier, row.extra, row.span.begin, row.span.end);
 }
 
-/// What every other function here relies on.
+/// Checks the invariants that all other functions here rely on.
 void check(const SegmentChunk& chunk, const ByteReader& in) {
   for (std::size_t i = 0; i < chunk.rows.size(); ++i) {
     const SegmentRow& row = chunk.rows[i];

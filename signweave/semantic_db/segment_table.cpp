@@ -27,7 +27,7 @@ class Numbers {
   std::unordered_map<std::string, std::uint32_t> index_;
 };
 
-/// Puts recordings one after the other, by name.
+/// Appends recordings one after the other, by name.
 class TableBuilder {
  public:
   TableBuilder() : texts_(lists_.texts), tiers_(lists_.tiers) {}
@@ -55,7 +55,7 @@ class TableBuilder {
     end_recording();
   }
 
-  void add(const SegmentTable::Part& part) {
+  void add(const SegmentTable::RecordingRef& part) {
     const SegmentTable& from = *part.table;
     begin_recording(std::string(from.recording_at(part.recording)));
     const SegmentTable::RowRange rows = from.recording_rows(part.recording);
@@ -66,7 +66,7 @@ class TableBuilder {
       if (known[text_there] == SegmentTable::kNone) known[text_there] = text(from.text_at(text_there));
       return known[text_there];
     };
-    // In the order of their rows, so that the same recordings give the same table whatever they come from.
+    // In row order, so that the same recordings give the same table whatever table they come from.
     const std::span<const SegmentTable::TierRows> there = from.tiers_of(part.recording);
     std::vector<SegmentTable::TierRows> tiers(there.begin(), there.end());
     std::ranges::sort(tiers, {}, &SegmentTable::TierRows::begin);
@@ -98,7 +98,7 @@ class TableBuilder {
  private:
   std::uint32_t text(std::string_view label) {
     const std::uint32_t number = texts_.of(label);
-    // A text is its own match form until a row says otherwise; one in match form is that of itself.
+    // A text is its own match form until a row sets another; a text in match form stays its own.
     while (lists_.labels_of_texts.size() <= number) {
       lists_.labels_of_texts.push_back(static_cast<std::uint32_t>(lists_.labels_of_texts.size()));
     }
@@ -107,7 +107,7 @@ class TableBuilder {
 
   void begin_recording(const std::string& name) {
     if (!lists_.recordings.empty() && lists_.recordings.back() == name) {
-      throw Error(ErrorCode::already_exists, fmt::format("recording '{}' is there twice; rename one", printable(name)));
+      throw Error(ErrorCode::already_exists, fmt::format("recording '{}' occurs twice; rename one", printable(name)));
     }
     lists_.recordings.push_back(name);
   }
@@ -165,7 +165,7 @@ class TableBuilder {
     return source.signer;
   }
 
-  /// Signs of which each begins less than a rest after those before it have ended.
+  /// Adds units: runs of signs in which each begins less than a rest after the end of those before it.
   void add_units(std::span<const SegmentRow> rows) {
     std::optional<SegmentRow> unit;
     const auto finish = [&] {
@@ -200,11 +200,12 @@ SegmentTable::SegmentTable(std::span<const Source> sources) {
   *this = builder.finish();
 }
 
-SegmentTable SegmentTable::merged(std::span<const Part> parts) {
-  std::vector<Part> ordered(parts.begin(), parts.end());
-  std::ranges::stable_sort(ordered, {}, [](const Part& part) { return part.table->recording_at(part.recording); });
+SegmentTable SegmentTable::merged(std::span<const RecordingRef> parts) {
+  std::vector<RecordingRef> ordered(parts.begin(), parts.end());
+  std::ranges::stable_sort(ordered, {},
+                           [](const RecordingRef& part) { return part.table->recording_at(part.recording); });
   TableBuilder builder;
-  for (const Part& part : ordered) builder.add(part);
+  for (const RecordingRef& part : ordered) builder.add(part);
   return builder.finish();
 }
 
@@ -262,7 +263,7 @@ std::span<const RowId> SegmentTable::with_label(RowKind kind, std::uint32_t labe
   if (label >= text_count() || kind == RowKind::unit) return {};
   const std::span<const RowId> all =
       by_label_.subspan(rows_of_labels_[label], rows_of_labels_[label + 1] - rows_of_labels_[label]);
-  // Most labels have rows of one kind.
+  // Most labels have rows of one kind only.
   if (!all.empty() && this->kind(all.front()) == kind && this->kind(all.back()) == kind) return all;
   const auto begin = std::ranges::lower_bound(all, kind, {}, [this](RowId row) { return this->kind(row); });
   const auto end = std::ranges::upper_bound(all, kind, {}, [this](RowId row) { return this->kind(row); });

@@ -96,7 +96,7 @@ TEST(SegmentsOf, APhaseBelongsToItsSignAndEveryOtherRowToItsParentAnnotation) {
   EXPECT_EQ(chunk.rows[6].parent, kNoRow);
 }
 
-TEST(SegmentsOf, ALabelIsKeptVerbatimAndInMatchForm) {
+TEST(SegmentsOf, ALabelIsStoredVerbatimAndInMatchForm) {
   const SegmentChunk chunk = segments_of(weather(), weather_signs());
   EXPECT_EQ(chunk.labels[chunk.rows[1].text], " MATIN");
   EXPECT_EQ(chunk.labels[chunk.rows[1].label], "MATIN");
@@ -137,7 +137,7 @@ TEST(SegmentsOf, ADocumentWithoutIdsIsMatchedBySpanAndLabel) {
   EXPECT_EQ(chunk.rows[5].parent, 1U);
 }
 
-TEST(SegmentsOf, ASignOfAnotherDocumentIsRefused) {
+TEST(SegmentsOf, ASignOfAnotherDocumentIsRejected) {
   std::vector<Sign> signs = weather_signs();
   signs[0].annotation = "g9";
   EXPECT_THROW(segments_of(weather(), signs), Error);
@@ -167,7 +167,7 @@ TEST(SegmentBytes, EveryCutIsCorrupt) {
   }
 }
 
-RC_GTEST_PROP(SegmentBytes, DamageIsRefusedOrGivesATableThatHoldsTogether, ()) {
+RC_GTEST_PROP(SegmentBytes, DamageIsRejectedOrGivesAConsistentTable, ()) {
   ByteWriter out;
   encode(segments_of(weather(), weather_signs()), out);
   Bytes bytes = out.take();
@@ -218,7 +218,7 @@ TEST(SegmentBytes, RowsOutOfOrderAndIndexesOutOfRangeAreCorrupt) {
   EXPECT_TRUE(refuses(bad));
 }
 
-TEST(SegmentBytes, ALaterVersionIsNamedAsSuch) {
+TEST(SegmentBytes, ALaterVersionIsReportedAsSuch) {
   ByteWriter out;
   out.number(std::uint8_t{200});
   ByteReader in(out.bytes(), "meteo");
@@ -254,7 +254,7 @@ TEST(SegmentTable, IndexesLeadToTheRows) {
   EXPECT_THAT(table.glosses(), ElementsAre("MATIN", "VANNES"));
 }
 
-TEST(SegmentTable, ATableOfNothingAnswersEverythingWithNothing) {
+TEST(SegmentTable, AnEmptyTableReturnsEmptyResults) {
   const SegmentTable table;
   EXPECT_THAT(table.glosses(), IsEmpty());
   EXPECT_THAT(table.phases(PhaseKind::stroke), IsEmpty());
@@ -270,7 +270,7 @@ TEST(SegmentTable, OverlappingAnnotationsOfOneTierAreMarked) {
   EXPECT_FALSE(table_of(segments_of(document, {})).tiers_of(0)[1].apart());
 }
 
-TEST(SegmentTable, ARecordingThatComesTwiceIsRefused) {
+TEST(SegmentTable, ADuplicateRecordingIsRejected) {
   const SegmentChunk chunk;
   const SegmentTable::Source sources[] = {{"meteo", &chunk}, {"meteo", &chunk}};
   EXPECT_THROW(SegmentTable{sources}, Error);
@@ -287,14 +287,14 @@ TEST(SegmentTable, ARestOfASecondEndsAUnit) {
   EXPECT_EQ(table.span(table.units()[1]), (TimeSpan{2'500ms, 2'600ms}));
 }
 
-TEST(SegmentTable, TimesBeyondAMonthAreKept) {
+TEST(SegmentTable, TimesBeyondAMonthAreStored) {
   SegmentChunk chunk{.tiers = {"T"}, .labels = {"A"}, .rows = {}};
   chunk.rows.push_back({.span = {-5ms, 3'000'000'000ms}});
   const SegmentTable table = table_of(chunk);
   EXPECT_EQ(table.span(0), (TimeSpan{-5ms, 3'000'000'000ms}));
 }
 
-TEST(SegmentTable, ItsBytesAreATableWhereverTheyLie) {
+TEST(SegmentTable, ItsBytesAreATableAtAnyAddress) {
   const SegmentTable table = table_of(segments_of(weather(), weather_signs()));
   auto bytes = std::make_shared<Bytes>(table.bytes().begin(), table.bytes().end());
   bytes->insert(bytes->begin(), std::byte{0});
@@ -312,7 +312,7 @@ TEST(SegmentTable, EveryCutOfItsBytesIsCorrupt) {
   }
 }
 
-RC_GTEST_PROP(SegmentTable, DamageIsRefusedOrGivesATableThatCanBeRead, ()) {
+RC_GTEST_PROP(SegmentTable, DamageIsRejectedOrGivesATableThatCanBeRead, ()) {
   const SegmentTable table = table_of(segments_of(weather(), weather_signs()));
   const auto bytes = std::make_shared<Bytes>(table.bytes().begin(), table.bytes().end());
   (*bytes)[*rc::gen::inRange<std::size_t>(0, bytes->size())] = static_cast<std::byte>(*rc::gen::inRange(0, 256));

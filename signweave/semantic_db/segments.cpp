@@ -34,7 +34,7 @@ Segments::Segments(std::vector<Aged> tables, std::span<const Tombstone> tombston
     members_.push_back(std::move(member));
   }
   const auto name = [this](const auto& place) { return members_[place.first].table.recording_at(place.second); };
-  if (members_.size() > 1) std::ranges::sort(recordings_, {}, name);  // one table's are in order
+  if (members_.size() > 1) std::ranges::sort(recordings_, {}, name);  // those of one table are already in order
   for (std::uint32_t i = 0; i < recordings_.size(); ++i) {
     members_[recordings_[i].first].numbers[recordings_[i].second] = i;
   }
@@ -79,7 +79,7 @@ RowId Segments::parent(RowId row) const noexcept {
 }
 
 SegmentTable::RowRange Segments::recording_rows(std::uint32_t recording) const noexcept {
-  const SegmentTable::Part there = part(recording);
+  const SegmentTable::RecordingRef there = part(recording);
   const SegmentTable::RowRange rows = there.table->recording_rows(there.recording);
   return {rows.begin + first_row(recording), rows.end + first_row(recording)};
 }
@@ -91,7 +91,7 @@ SegmentTable::RowRange Segments::tier_rows_of(RowId row) const noexcept {
 }
 
 SegmentTable::RowRange Segments::tier_rows(std::uint32_t recording, std::string_view tier) const noexcept {
-  const SegmentTable::Part there = part(recording);
+  const SegmentTable::RecordingRef there = part(recording);
   const SegmentTable::TierRows* rows = there.table->tier_rows(there.recording, there.table->find_tier(tier));
   if (rows == nullptr) return {};
   return {rows->begin + first_row(recording), rows->own_end + first_row(recording)};
@@ -136,7 +136,7 @@ std::vector<std::string> Segments::recordings() const {
 std::vector<std::string> Segments::tiers() const {
   std::set<std::string_view> ids;
   for (std::uint32_t i = 0; i < recording_count(); ++i) {
-    const SegmentTable::Part there = part(i);
+    const SegmentTable::RecordingRef there = part(i);
     for (const auto& rows : there.table->tiers_of(there.recording)) ids.insert(there.table->tier_at(rows.tier));
   }
   return {ids.begin(), ids.end()};

@@ -11,13 +11,13 @@
 
 namespace signweave {
 
-/// The segments of a database: some tables, each of other recordings. Immutable; threads may share it.
+/// The segments of a database: several tables with disjoint recordings. Immutable; threads may share it.
 ///
-/// Recordings are numbered by name over all tables. A row is numbered so too: its number in its table, and how many
-/// rows the tables before that one have. So rows of one recording stand as in its table.
+/// Recordings are numbered by name over all tables. The number of a row is its number in its table plus the number of
+/// rows of the tables before that one, so rows of one recording are in the order of their table.
 class Segments {
  public:
-  /// A recording that is in tables older than `generation` is no longer what they say.
+  /// Marks entries of a recording as out of date in all tables older than `generation`.
   struct Tombstone {
     std::string recording;
     std::uint64_t generation = 0;
@@ -27,36 +27,36 @@ class Segments {
     SegmentTable table;
     std::uint64_t generation = 0;
   };
-  /// One table, and which of its recordings count.
+  /// One table, and which of its recordings are current.
   struct Member {
     SegmentTable table;
-    RowId first = 0;                     ///< what is added to its rows
-    std::vector<std::uint32_t> numbers;  ///< [recording of the table] its number here; kNone: it does not count
-    bool whole = true;                   ///< all count
+    RowId first = 0;                     ///< offset added to its row numbers
+    std::vector<std::uint32_t> numbers;  ///< [recording of the table] its number here; kNone: not current
+    bool whole = true;                   ///< all are current
   };
 
   Segments() = default;
-  /// One table of all recordings.
-  Segments(SegmentTable table);  // not explicit: a table is the segments of its recordings
+  /// One table with all recordings.
+  Segments(SegmentTable table);  // implicit: a table is the segments of its recordings
   explicit Segments(std::vector<Aged> tables, std::span<const Tombstone> tombstones = {});
 
   static constexpr std::uint32_t kNone = SegmentTable::kNone;
 
   std::span<const Member> members() const noexcept { return members_; }
-  /// Rows of recordings that count.
+  /// Number of rows of current recordings.
   std::size_t row_count() const noexcept { return rows_; }
 
   std::uint32_t recording_count() const noexcept { return static_cast<std::uint32_t>(recordings_.size()); }
   std::string_view recording_name(std::uint32_t recording) const noexcept;
-  /// None (kNone) where there is none of this name.
+  /// kNone if there is no recording of this name.
   std::uint32_t find_recording(std::string_view name) const noexcept;
-  /// Where a recording is. The rows there and here differ by `first_row`.
-  SegmentTable::Part part(std::uint32_t recording) const noexcept {
+  /// The table and index of a recording. Row numbers there and here differ by `first_row`.
+  SegmentTable::RecordingRef part(std::uint32_t recording) const noexcept {
     return {&members_[recordings_[recording].first].table, recordings_[recording].second};
   }
   RowId first_row(std::uint32_t recording) const noexcept { return members_[recordings_[recording].first].first; }
 
-  // Of a row. It must be one of a recording that counts.
+  // Values of a row, which must belong to a current recording.
 
   RowKind kind(RowId row) const noexcept { return in_table(row, &SegmentTable::kind); }
   PhaseKind phase(RowId row) const noexcept { return in_table(row, &SegmentTable::phase); }
@@ -68,21 +68,21 @@ class Segments {
   std::string_view text(RowId row) const noexcept;   ///< verbatim
   std::string_view tier(RowId row) const noexcept;
   RowId parent(RowId row) const noexcept;
-  /// The rows whose parent it is, in time order.
+  /// The rows whose parent is `row`, in time order.
   class Rows;
   Rows children(RowId row) const noexcept;
   SegmentTable::RowRange recording_rows(std::uint32_t recording) const noexcept;
-  /// The own rows of that tier which a row is on.
+  /// The own rows of the tier a row is on.
   SegmentTable::RowRange tier_rows_of(RowId row) const noexcept;
-  /// The own rows of a tier of a recording; empty where there is none.
+  /// The own rows of a tier of a recording; empty if there is no such tier.
   SegmentTable::RowRange tier_rows(std::uint32_t recording, std::string_view tier) const noexcept;
 
   /// The signs with a gloss (match form), by recording, then row.
   std::vector<RowId> signs_with(std::string_view gloss) const;
-  /// Every gloss (match form), sorted, once.
+  /// All glosses (match form), sorted, without duplicates.
   std::vector<std::string> glosses() const;
   std::vector<std::string> recordings() const;
-  /// Every tier's id, sorted, once.
+  /// The ids of all tiers, sorted, without duplicates.
   std::vector<std::string> tiers() const;
 
  private:
@@ -98,11 +98,12 @@ class Segments {
   }
 
   std::vector<Member> members_;
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> recordings_;  ///< [recording] member, and its number there
+  std::vector<std::pair<std::uint32_t, std::uint32_t>>
+      recordings_;  ///< [recording] index of the member, and the number in it
   std::size_t rows_ = 0;
 };
 
-/// Rows of one table, numbered over all.
+/// Rows of one table, numbered over all tables.
 class Segments::Rows {
  public:
   class Iterator {
@@ -133,18 +134,18 @@ inline Segments::Rows Segments::children(RowId row) const noexcept {
   return {member.table.children(row - member.first), member.first};
 }
 
-/// A sign row and its phases as the Sign that they were made of (without its annotation ids and signer).
+/// The Sign that a sign row and its phases were built from (without its annotation ids and signer).
 Sign sign_at(const Segments& segments, RowId row);
 
-/// All signs of a recording, by tier as the table lists them, then time.
+/// All signs of a recording, by tier in the order of the table, then time.
 std::vector<Sign> signs_of(const Segments& segments, std::uint32_t recording);
 
-/// Which phase rows each of them has, [sign][phase]: their places among all phase rows of the recording, which is the
-/// order of its features.
+/// The phase rows of each sign, [sign][phase]: their indexes among all phase rows of the recording, which is the order
+/// of its features.
 std::vector<std::vector<std::size_t>> phase_places_of(const Segments& segments, std::uint32_t recording);
 
-/// Those of its main sign tier, the one with most signs (of several, the first): what a run of signs means where each
-/// hand has a tier of its own.
+/// The signs of its main sign tier, the one with most signs (of several, the first): the tier used for runs of signs if
+/// each hand has a tier of its own.
 std::vector<Sign> main_signs_of(const Segments& segments, std::uint32_t recording);
 
 }  // namespace signweave

@@ -1,4 +1,4 @@
-// Several tables are as one, and what is stored of them is what was put.
+// Several tables behave as one, and reading stored tables returns what was put.
 #include "signweave/semantic_db/segments.h"
 
 #include <gmock/gmock.h>
@@ -15,7 +15,7 @@ namespace {
 
 using ::testing::ElementsAre;
 
-/// Signs of a few glosses on one tier, some with a phase; the same number gives the same.
+/// Signs of a few glosses on one tier, some with a phase; the same number gives the same signs.
 SegmentChunk signs(unsigned number) {
   SegmentChunk chunk{.tiers = {"Phase", "Gloss"}, .labels = {"s", "A", "B", "C", " A "}, .rows = {}};
   const unsigned count = number % 7;
@@ -45,8 +45,8 @@ SegmentTable table_of_chunks(const std::map<std::string, SegmentChunk>& chunks) 
   return SegmentTable(sources);
 }
 
-/// All that can be told of the segments, recording by recording.
-std::vector<std::string> told(const Segments& segments) {
+/// Everything that can be read of the segments, recording by recording.
+std::vector<std::string> contents_of(const Segments& segments) {
   std::vector<std::string> lines;
   for (std::uint32_t recording = 0; recording < segments.recording_count(); ++recording) {
     lines.emplace_back(segments.recording_name(recording));
@@ -79,7 +79,7 @@ std::vector<std::string> told(const Segments& segments) {
   return lines;
 }
 
-RC_GTEST_PROP(Segments, OfManyTablesAreThoseOfOne, ()) {
+RC_GTEST_PROP(Segments, OfManyTablesEqualThoseOfOne, ()) {
   std::map<std::string, SegmentChunk> now;
   const kv::TestFolder folder;
   kv::create(folder / "db", "lmdb");
@@ -107,14 +107,14 @@ RC_GTEST_PROP(Segments, OfManyTablesAreThoseOfOne, ()) {
     }
     const std::optional<Segments> stored = semantic_db::read_tables(store->read());
     RC_ASSERT(stored.has_value());
-    RC_ASSERT(told(*stored) == told(table_of_chunks(now)));
+    RC_ASSERT(contents_of(*stored) == contents_of(table_of_chunks(now)));
     RC_ASSERT(stored->members().size() <= 6U);
   }
   change([&](kv::WriteTransaction& transaction) { semantic_db::merge_tables(transaction, next); });
-  RC_ASSERT(told(*semantic_db::read_tables(store->read())) == told(table_of_chunks(now)));
+  RC_ASSERT(contents_of(*semantic_db::read_tables(store->read())) == contents_of(table_of_chunks(now)));
 }
 
-TEST(Segments, DamagedTablesAreNamedAsSuch) {
+TEST(Segments, DamagedTablesAreReportedAsSuch) {
   const kv::TestFolder folder;
   kv::create(folder / "db", "lmdb");
   const std::unique_ptr<kv::KvStore> store = kv::open(folder / "db", kv::Access::read_write);

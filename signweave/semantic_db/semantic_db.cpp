@@ -38,7 +38,7 @@ void for_each_key(const kv::ReadTransaction& snapshot, std::uint64_t generation,
                   const std::function<void(ByteSpan key)>& see) {
   for_each_document_key(snapshot, generation, where, see);
   see(key_of('S', generation));
-  for (const char what : {'F', 'T'}) {  // a database of an older layout has none
+  for (const char what : {'F', 'T'}) {  // databases of an older layout have none
     if (snapshot.get(key_of(what, generation))) see(key_of(what, generation));
   }
 }

@@ -10,12 +10,12 @@
 namespace signweave::semantic_db {
 namespace {
 
-/// A table is merged with the one before it where that has at most so many times its rows.
+/// A table is merged with the previous one if that has at most this many times its rows.
 constexpr std::uint64_t kRatio = 4;
-/// merge_tables leaves alone what is less than this part of all rows.
+/// merge_tables does nothing if the other tables have less than this fraction of all rows.
 constexpr std::uint64_t kSmallPart = 16;
 
-/// Past so many, all tables are merged: what is gone is not to be looked past for ever.
+/// With more than this, all tables are merged, so that the search need not skip removed recordings indefinitely.
 constexpr std::size_t kMostTombstones = 64;
 
 struct StoredTable {
@@ -81,7 +81,7 @@ StoredTable put_table(kv::WriteTransaction& transaction, const SegmentTable& tab
   return {generation, table.size()};
 }
 
-/// The owner is kept by what is made, where it lends its own bytes.
+/// The result keeps the owner alive if the owner lends the bytes.
 SegmentTable read_table(const kv::ReadTransaction& snapshot, std::uint64_t generation,
                         const std::shared_ptr<const void>& owner) {
   const auto copied = std::make_shared<Bytes>();
@@ -91,21 +91,21 @@ SegmentTable read_table(const kv::ReadTransaction& snapshot, std::uint64_t gener
   return TableBytes::open_sealed(*record, lent ? owner : copied, kWhereTable);
 }
 
-/// A recording was there before `generation`. One tombstone of a name is enough: the youngest.
+/// Marks a recording as out of date before `generation`. One tombstone per name is enough: the latest.
 void bury(TableList& list, std::string_view recording, std::uint64_t generation) {
   std::erase_if(list.tombstones, [&](const Segments::Tombstone& one) { return one.recording == recording; });
   list.tombstones.push_back({std::string(recording), generation});
 }
 
-/// Makes one table of those from `first` on, and drops the tombstones that concern no table any more.
+/// Merges the tables from `first` onwards into one, and drops the tombstones that no longer apply to any table.
 void merge_from(kv::WriteTransaction& transaction, TableList& list, std::size_t first, const NextGeneration& next) {
   std::vector<Segments::Aged> tables;
   for (std::size_t i = first; i < list.tables.size(); ++i) {
-    // What is read in a transaction that writes is lent until it writes again.
+    // Data read in a write transaction is valid until the next write.
     tables.push_back({read_table(transaction, list.tables[i].generation, {}), list.tables[i].generation});
   }
   const Segments all(std::move(tables), list.tombstones);
-  std::vector<SegmentTable::Part> parts;
+  std::vector<SegmentTable::RecordingRef> parts;
   for (std::uint32_t i = 0; i < all.recording_count(); ++i) parts.push_back(all.part(i));
   const SegmentTable merged = SegmentTable::merged(parts);
   for (std::size_t i = first; i < list.tables.size(); ++i) transaction.erase(key_of('I', list.tables[i].generation));
@@ -152,7 +152,7 @@ void replace_tables(kv::WriteTransaction& transaction, const SegmentTable& table
   try {
     if (std::optional<TableList> stored = read_list(transaction)) list = *std::move(stored);
   } catch (const Error& error) {
-    if (error.code() != ErrorCode::corrupt) throw;  // what a damaged list named is swept as nobody's
+    if (error.code() != ErrorCode::corrupt) throw;  // a sweep removes the tables of a damaged list as unreferenced
   }
   for (const StoredTable& one : list.tables) transaction.erase(key_of('I', one.generation));
   list = {};

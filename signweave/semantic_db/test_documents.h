@@ -6,14 +6,14 @@
 #include <string>
 #include <vector>
 
-/// For tests: documents with everything that makes cutting hard, made anew in every run of a property.
+/// For tests: documents with everything that makes cutting hard, regenerated in every run of a property.
 namespace signweave::testing_documents {
 
 inline int pick(int below) {
   return *rc::gen::inRange(0, below);
 }
 
-/// Names that some document has, and some that none has.
+/// Names that some documents use, and one that no document uses.
 inline const std::vector<std::string>& tier_names() {
   static const std::vector<std::string> names = {"Gloss", "Phase", "A & B", "Übersetzung", "it's", "none"};
   return names;
@@ -34,7 +34,7 @@ inline std::string label() {
   return kLabels[pick(9)];
 }
 
-/// An EAF file that its reader accepts. With `odd`, some have elements of the same names in other places.
+/// An EAF file that its reader accepts. With `odd`, some have elements of the same names in other positions.
 inline std::string eaf_text(bool odd) {
   std::string text = pick(4) == 0 ? "\xEF\xBB\xBF" : "";
   if (pick(2) == 0) text += "<?xml version=\"1.0\" encoding=\"UTF-8\"?>" + blank();
@@ -88,7 +88,7 @@ inline std::string eaf_text(bool odd) {
   return text + "</ANNOTATION_DOCUMENT>" + (pick(2) == 0 ? "\n" : "");
 }
 
-/// The same of ANVIL.
+/// The same for ANVIL.
 inline std::string anvil_text(bool odd) {
   std::string text = "<annotation>" + blank() + "<head><info key=\"a\">b</info></head>" + blank();
   if (odd && pick(3) == 0) text += "<other><track name='Gloss'><el index='0'/></track></other>";

@@ -10,17 +10,17 @@
 
 namespace signweave::semantic_db {
 
-/// Stores the hands' trace of a document's recording beside its features; instead of what was. `erase` erases it too.
+/// Stores the hands' trace of a recording with its features; replaces an earlier trace. `erase` erases it too.
 void put_trace(kv::WriteTransaction& transaction, std::uint64_t generation, const HandTrace& trace);
 
 void erase_trace(kv::WriteTransaction& transaction, std::uint64_t generation);
 
-/// As it was put; none where there is none, or another version measured. Throws Error{corrupt}, in which `where` names
-/// the recording.
+/// The trace as it was put; nullopt if there is none, or another version measured it. Throws Error{corrupt}; `where`
+/// names the recording in it.
 std::optional<HandTrace> read_trace(const kv::ReadTransaction& snapshot, std::uint64_t generation,
                                     const std::string& where, const Pause& pause = {});
 
-/// What `read_features` (semantic_db.h) gives of all at once.
+/// The same as `read_features` of semantic_db.h, calling `pause` regularly.
 std::optional<RecordingFeatures> read_features(const kv::ReadTransaction& snapshot, std::uint64_t generation,
                                                const std::string& where, const Pause& pause);
 

@@ -1,4 +1,4 @@
-// Nothing is allocated once the scratch has grown, and it grows with the body and not with the gap.
+// Methods do not allocate once the scratch has grown; its size depends on the body, not on the gap.
 
 #include <gtest/gtest.h>
 

@@ -8,10 +8,9 @@
 namespace signweave {
 namespace {
 
-/// An elbow is neither bent nor stretched farther than this by being shifted: cosines of 0.5 and 3.1 radians between
-/// the bones.
+/// Limits of the elbow in a shift: cosines of 0.5 and 3.1 radians between the bones.
 constexpr float kMostBent = 0.87758f;
-constexpr float kMostStretched = -0.99914f;
+constexpr float kStraightestCosine = -0.99914f;
 
 std::size_t slot(JointIndex joint) {
   return static_cast<std::size_t>(joint);
@@ -22,7 +21,7 @@ Eigen::Quaternionf parent_rotation(const Skeleton& skeleton, const ModelPose& mo
   return parent == kNoJoint ? Eigen::Quaternionf::Identity() : model.rotations[slot(parent)];
 }
 
-/// About an axis by the difference of two angles in [0, π] whose cosines are given.
+/// The rotation about an axis by the difference of two angles in [0, π], given by their cosines.
 Eigen::Quaternionf turn_by_difference(float of, float without, const Eigen::Vector3f& axis) noexcept {
   const float sine_of = std::sqrt(1 - of * of);
   const float sine_without = std::sqrt(1 - without * without);
@@ -54,18 +53,18 @@ void shift_wrist(const Skeleton& skeleton, const ArmJoints& arm, const ModelPose
   const float a = upper.norm();
   const float b = fore.norm();
   if (a < 1e-4f || b < 1e-4f) return;
-  // The cosine between the bones, seen from the elbow. Angles themselves are never needed.
+  // The cosine of the angle between the bones at the elbow. The angles themselves are never needed.
   const float cosine = std::clamp(-upper.dot(fore) / (a * b), -1.0f, 1.0f);
   const auto distance_at = [&](float between) {
     return std::sqrt(std::max(0.0f, a * a + b * b - 2 * a * b * between));
   };
   const Eigen::Vector3f goal = upper + fore + by;  // from the shoulder
-  const float farthest = distance_at(std::min(kMostStretched, cosine));
+  const float farthest = distance_at(std::min(kStraightestCosine, cosine));
   const float nearest = distance_at(std::max(kMostBent, cosine));
   const float distance = std::clamp(goal.norm(), nearest, farthest);
   if (distance < 1e-4f || goal.norm() < 1e-4f) return;
   const float wanted = std::clamp((a * a + b * b - distance * distance) / (2 * a * b), -1.0f, 1.0f);
-  Eigen::Vector3f axis = upper.cross(fore);  // turning the forearm about it bends the elbow more
+  Eigen::Vector3f axis = upper.cross(fore);  // rotating the forearm about it bends the elbow more
   if (axis.norm() < 1e-4f * a * b) axis = upper.cross(goal);
   if (axis.norm() < 1e-6f) axis = upper.unitOrthogonal();
   axis.normalize();

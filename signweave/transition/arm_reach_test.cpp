@@ -16,7 +16,7 @@ constexpr ArmJoints kArm{kUpper, kFore, kHand};
 constexpr float kLengthOfUpper = 0.3f;
 constexpr float kLengthOfFore = 0.25f;
 
-/// The small body's left arm, its elbow bent by an angle.
+/// The small body's left arm, with its elbow bent by an angle.
 Motion arm_bent_by(float angle, const Eigen::Vector3f& axis) {
   Motion motion(body(), {100, 1}, 1);
   motion.pose(0).rotations[kUpper] = about({0.3f, -1, 0.4f}, 0.7);
@@ -52,7 +52,7 @@ RC_GTEST_PROP(ArmReach, AWristIsShiftedAsFarAsTheArmReaches, ()) {
   RC_ASSERT((reached - static_cast<float>(wanted) * goal.normalized()).norm() < 5e-4f);
 }
 
-TEST(ArmReach, NothingMovesWhereNothingIsShifted) {
+TEST(ArmReach, AZeroShiftMovesNothing) {
   for (const float angle : {0.0f, 1e-3f, 0.1f, 1.5f, 2.8f, 3.1f}) {
     Motion motion = arm_bent_by(angle, Eigen::Vector3f::UnitY());
     const Motion as_it_was = motion;
@@ -65,7 +65,7 @@ TEST(ArmReach, NothingMovesWhereNothingIsShifted) {
   }
 }
 
-TEST(ArmReach, SmallShiftsMoveJointsLittleAtEveryBend) {
+TEST(ArmReach, SmallShiftsMoveJointsLittleAtAnyElbowAngle) {
   for (float angle = 0.2f; angle < 2.6f; angle += 0.05f) {
     Motion motion = arm_bent_by(angle, Eigen::Vector3f::UnitY());
     const Motion as_it_was = motion;

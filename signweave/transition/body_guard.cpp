@@ -11,20 +11,20 @@ namespace {
 
 using Eigen::Vector3f;
 
-/// An elbow is swivelled no farther in one round. Radians.
+/// Maximum swivel of an elbow in one round. Radians.
 constexpr float kMostSwivel = 0.3f;
 
-/// A hand is led out of the other one no farther, about its breadth: where that does not suffice, as of hands that were
-/// captured inside each other, it stays nearer to where it was made. Metres.
+/// Maximum distance, about a hand's breadth, by which a hand is moved out of the other. If that is not enough, as for
+/// hands that were captured inside each other, it stays nearer to its generated position. Metres.
 constexpr float kMostApart = 0.1f;
 
 constexpr auto kOtherHand = static_cast<std::size_t>(Meeting::hand_hand);
 
-/// Frames between two are not examined where the arm moves so little that it cannot be a millimetre deeper there:
-/// trunk, head and forearms are so thick, and two fingers that pass each other. Metres.
+/// Frames between two examined ones are skipped if the arm moves less than this, because it cannot be a millimetre
+/// deeper there: this is the thickness of trunk, head and forearms, and of two fingers that pass each other. Metres.
 constexpr float kPassedByBody = 0.025f;
 constexpr float kPassedByFinger = 0.01f;
-/// A trajectory is so much longer than the line between two frames less than knot_stride apart.
+/// Maximum ratio of a trajectory's length to the straight line between two frames less than knot_stride apart.
 constexpr float kLonger = 1.25f;
 
 std::size_t at(JointIndex joint) {
@@ -60,7 +60,7 @@ void BodyGuard::look(Knot& knot) {
   knot.place = scene_.look(side_, knot.frame, knot.depths);
 }
 
-/// What the borders of a gap allow.
+/// Computes the depths that the borders of a gap allow.
 void BodyGuard::begin(const Gap& gap, Side side) {
   gap_ = &gap;
   side_ = side;
@@ -85,13 +85,13 @@ void BodyGuard::begin(const Gap& gap, Side side) {
   passing_ = (knots_[1].place.wrist - knots_[1].other) - (knots_[0].place.wrist - knots_[0].other);
 }
 
-/// Whether some frame between two neighbouring knots may be too deep, and much deeper than both.
+/// True if a frame between two neighbouring knots may be too deep, and much deeper than both.
 bool BodyGuard::may_hide(const Knot& a, const Knot& b) const {
   const Vector3f trunk = b.origin - a.origin;
   const Vector3f wrist = b.place.wrist - a.place.wrist;
   const Vector3f elbow = b.place.elbow - a.place.elbow;
   const float cosine = std::min(1.0f, std::abs(a.place.hand.dot(b.place.hand)));
-  const float turned = 2 * std::sqrt(2 * (1 - cosine)) * hand_reach_;  // as far as the turning takes the finger tips
+  const float turned = 2 * std::sqrt(2 * (1 - cosine)) * hand_reach_;  // how far the rotation moves the fingertips
   for (std::size_t meeting = 0; meeting < kMeetings; ++meeting) {
     const Depth& here = a.depths[meeting];
     const Depth& there = b.depths[meeting];
@@ -111,28 +111,28 @@ bool BodyGuard::may_hide(const Knot& a, const Knot& b) const {
   return false;
 }
 
-/// Adds knots until nothing can be hidden between them; returns whether there are more of them now.
+/// Adds knots until nothing can be hidden between them. Returns true if knots were added.
 bool BodyGuard::refine() {
   return refine_knots(
       knots_, added_, knot_stride(gap_->rate), [this](std::int64_t frame) { return knot_at(frame); },
       [this](const Knot& a, const Knot& b) { return may_hide(a, b); });
 }
 
-/// Of the arm as the knot has it.
-BodyGuard::Correction BodyGuard::way_out(const Knot& deepest, float beyond, std::size_t meeting) {
+/// The correction for the arm of a knot.
+BodyGuard::Correction BodyGuard::correction_for(const Knot& deepest, float beyond, std::size_t meeting) {
   Correction correction{.peak = moment_of(*gap_, deepest.frame)};
-  // A little farther than needed, or the rounds would only come near.
+  // Slightly more than needed; otherwise the rounds would only approach the goal.
   const float needed = beyond + 0.5f * kDepthAllowed;
   const Depth& depth = deepest.depths[meeting];
   if (meeting == kOtherHand) {
-    // Fingers are thin: the nearest way out of one leads into the next, and back on the other side. Hands are led apart
-    // as they lie beside each other, across the way on which they pass, and keep to that.
+    // Fingers are thin: the nearest exit from one leads into the next, or back on the other side. So hands are moved
+    // apart along the line between them, perpendicular to their relative motion, and keep that direction.
     if (apart_.isZero()) {
       const Side other = side_ == Side::left ? Side::right : Side::left;
-      const Vector3f beside = scene_.palm(side_, deepest.frame, deepest.place) -
-                              scene_.palm(other, deepest.frame, scene_.stored_place(other, deepest.frame));
+      const Vector3f separation = scene_.palm(side_, deepest.frame, deepest.place) -
+                                  scene_.palm(other, deepest.frame, scene_.stored_place(other, deepest.frame));
       const Vector3f along = passing_.norm() > 0.05f ? Vector3f(passing_.normalized()) : Vector3f::Zero();
-      apart_ = beside - beside.dot(along) * along;
+      apart_ = separation - separation.dot(along) * along;
       apart_ = apart_.norm() > 0.01f ? Vector3f(apart_.normalized()) : depth.out;
     }
     const float step = std::min(needed, kMostApart - led_apart_);
@@ -143,7 +143,7 @@ BodyGuard::Correction BodyGuard::way_out(const Knot& deepest, float beyond, std:
   scene_.place(side_, deepest.frame);
   const Vector3f shoulder = scene_.pose().positions[at(scene_.joints(side_).shoulder)];
   const Vector3f line = (deepest.place.wrist - shoulder).normalized();
-  // How far that place of the forearm goes, for one metre of the wrist's way or one radian of the elbow's.
+  // How far that point of the forearm moves per metre of wrist shift or per radian of elbow swivel.
   const float by_shift = std::max(depth.along, 0.5f);
   const Vector3f round = line.cross(deepest.place.elbow - shoulder);
   const float by_swivel = (1 - depth.along) * round.dot(depth.out);
@@ -155,7 +155,7 @@ BodyGuard::Correction BodyGuard::way_out(const Knot& deepest, float beyond, std:
   return correction;
 }
 
-/// Bends the arm of one frame, ever less towards both borders.
+/// Applies a correction to one frame, fading towards both borders.
 void BodyGuard::apply(const Correction& correction, std::int64_t frame) {
   const MutablePoseView pose = scene_.made(frame);
   const float share = bump(moment_of(*gap_, frame), correction.peak);
@@ -175,11 +175,11 @@ void BodyGuard::restore(const Bent& bent, MutablePoseView pose) const {
   pose.rotations[at(joints.wrist)] = bent[2];
 }
 
-/// Finds the corrections, and applies them to the knots; returns whether there are any.
+/// Finds the corrections and applies them to the knots. Returns true if there are any.
 bool BodyGuard::lead_out() {
-  // Where not everything can be had, as when a whole arm passes through the trunk, the hand at least stays out of it.
+  // If not everything can be corrected, as when a whole arm passes through the trunk, at least the hand stays outside.
   for (const std::size_t meetings : {kMeetings, kOtherHand}) {
-    std::size_t best = corrections_.size();  // so many of them lead to the round that is least deep
+    std::size_t best = corrections_.size();  // number of corrections up to the least deep round
     float least = 0;
     bool first = true;
     for (int round = 0;;) {
@@ -205,7 +205,7 @@ bool BodyGuard::lead_out() {
         continue;
       }
       if (round++ == kRounds) break;
-      const Correction correction = way_out(*worst, beyond, worst_meeting);
+      const Correction correction = correction_for(*worst, beyond, worst_meeting);
       if (correction.shift.isZero() && correction.swivel == 0) break;
       corrections_.push_back(correction);
       for (std::size_t i = 1; i + 1 < knots_.size(); ++i) {
@@ -226,7 +226,7 @@ bool BodyGuard::lead_out() {
   return !corrections_.empty();
 }
 
-bool BodyGuard::mend_arm(const Gap& gap, Side side, bool with_fingers, MutablePoses made) {
+bool BodyGuard::repair_arm(const Gap& gap, Side side, bool with_fingers, MutablePoses made) {
   begin(gap, side);
   bool bent = wrists_[static_cast<std::size_t>(side)].limit_all(scene_, gap);
   refine();
@@ -237,17 +237,17 @@ bool BodyGuard::mend_arm(const Gap& gap, Side side, bool with_fingers, MutablePo
     });
   }
   FingerGuard& fingers = fingers_[static_cast<std::size_t>(side)];
-  if (with_fingers && fingers.known()) bent |= fingers.mend(gap, made);
+  if (with_fingers && fingers.known()) bent |= fingers.repair(gap, made);
   return bent;
 }
 
-bool BodyGuard::mend(const Gap& gap, GroupSet groups, MutablePoses made) {
+bool BodyGuard::repair(const Gap& gap, GroupSet groups, MutablePoses made) {
   bool begun = false;
   bool bent = false;
   for (const Side side : kSides) {
     if (!scene_.has(side) || !groups.has(arm_of(side))) continue;
     if (!std::exchange(begun, true)) scene_.begin(gap, made);
-    if (!mend_arm(gap, side, groups.has(fingers_of(side)), made)) continue;
+    if (!repair_arm(gap, side, groups.has(fingers_of(side)), made)) continue;
     scene_.changed(side);
     bent = true;
   }

@@ -11,48 +11,48 @@
 
 namespace signweave {
 
-/// A made frame may lie so much deeper inside the body than the frames on both sides of its gap. Metres.
+/// How much deeper inside the body a generated frame may be than the frames on both sides of its gap. Metres.
 inline constexpr float kDepthAllowed = 0.003f;
 
-/// Keeps arms that were made within what a body can do: hands out of head, trunk and each other, forearms out of the
-/// trunk, fingers out of each other, wrists within human limits. Made once per signer, it belongs to one thread; the
-/// second gap of some length allocates nothing.
+/// Keeps generated arms anatomically possible: hands out of head, trunk and each other, forearms out of the trunk,
+/// fingers out of each other, wrists within human limits. Created once per signer; used by one thread. A second gap of
+/// the same length allocates nothing.
 class BodyGuard {
  public:
-  /// Where the body's size is not known, or an arm, nothing is guarded.
+  /// Guards nothing if the body's size or an arm is unknown.
   BodyGuard(const Skeleton& skeleton, const SignerModel& signer, const JointGroups& groups);
 
-  /// Examines the frames of a gap that were made for `groups`, whole poses, each of the groups' arms by itself:
+  /// Corrects the frames of a gap that were generated for `groups`. `made` holds whole poses; each arm in `groups` is
+  /// handled separately:
   ///
-  /// - A wrist that is bent farther than people's are, and than at both borders, is turned back (see WristGuard).
-  /// - Where a hand goes deeper into the head, a side of the trunk or the other hand, or a forearm into a side of the
-  ///   trunk, than it is at either border, and kDepthAllowed, its trajectory is bent outwards: the wrist is shifted
-  ///   where it is deepest, or the elbow swivelled where that leads a forearm farther, fading out smoothly to nothing
-  ///   at both borders, so that position and velocity are kept there. The hand keeps its orientation, but for the
-  ///   limits of its wrist. Repeated until no frame is too deep, at most kRounds times; of all rounds that one stays
-  ///   whose deepest frame is least deep. A hand is led no farther than a hand's breadth out of the other one. Where
-  ///   some frame still is too deep, the hand at least is led out of head and trunk, by as many rounds that look at
-  ///   nothing else.
-  /// - Fingers that cross are bent apart (see FingerGuard).
+  /// - A wrist that is bent beyond human limits, and farther than at both borders, is turned back (see WristGuard).
+  /// - If a hand is deeper in the head, a side of the trunk or the other hand, or a forearm deeper in a side of the
+  ///   trunk, than at either border plus kDepthAllowed, its trajectory is bent outwards. The wrist is shifted at the
+  ///   deepest frame, or the elbow is swivelled if that moves a forearm farther out. The correction fades smoothly to
+  ///   zero at both borders, so position and velocity are preserved there. The hand keeps its orientation, within the
+  ///   limits of its wrist. This repeats until no frame is too deep, at most kRounds times; the round whose deepest
+  ///   frame is least deep is used. A hand is moved at most a hand's breadth out of the other one. If some frame is
+  ///   still too deep, as many further rounds consider the hand against head and trunk only.
+  /// - Crossing fingers are bent apart (see FingerGuard).
   ///
-  /// Not every frame is examined. Between two that are, others are skipped where the arm moves less than the distance
-  /// that it has left on both sides, or so little that it cannot pass through anything in between.
+  /// Not every frame is examined. Frames between two examined ones are skipped if the arm moves less than its clearance
+  /// at both of them, or too little to pass through anything in between.
   ///
-  /// Returns whether anything was bent. (ours)
-  bool mend(const Gap& gap, GroupSet groups, MutablePoses made);
+  /// Returns true if anything was changed. (ours)
+  bool repair(const Gap& gap, GroupSet groups, MutablePoses made);
 
   static constexpr int kRounds = 24;
 
  private:
-  /// The joints that are bent: shoulder, elbow, wrist.
+  /// Rotations of the corrected joints: shoulder, elbow, wrist.
   using Bent = std::array<Eigen::Quaternionf, 3>;
-  /// How the arm is led out of what it is in: either shift or swivel is zero.
+  /// One correction that moves the arm outwards; either shift or swivel is zero.
   struct Correction {
     Eigen::Vector3f shift = Eigen::Vector3f::Zero();  ///< of the wrist, metres, model space
     float swivel = 0;                                 ///< of the elbow, radians
-    float peak = 0;                                   ///< the moment at which it is whole, from 0 to 1
+    float peak = 0;                                   ///< the moment of full effect, from 0 to 1
   };
-  /// A frame that is examined.
+  /// An examined frame.
   struct Knot {
     std::int64_t frame = 0;  ///< -1: the left border; `count`: the right one
     ArmPlace place;
@@ -68,24 +68,24 @@ class BodyGuard {
   bool may_hide(const Knot& a, const Knot& b) const;
   bool refine();
   bool lead_out();
-  Correction way_out(const Knot& deepest, float beyond, std::size_t meeting);
+  Correction correction_for(const Knot& deepest, float beyond, std::size_t meeting);
   void apply(const Correction& correction, std::int64_t frame);
   void restore(const Bent& bent, MutablePoseView pose) const;
-  bool mend_arm(const Gap& gap, Side side, bool with_fingers, MutablePoses made);
+  bool repair_arm(const Gap& gap, Side side, bool with_fingers, MutablePoses made);
 
   const Skeleton* skeleton_;
   BodyScene scene_;
   std::array<FingerGuard, 2> fingers_;  ///< [Side]
   std::array<WristGuard, 2> wrists_;    ///< [Side]
-  // Of the gap and arm at hand:
+  // State of the current gap and arm:
   const Gap* gap_ = nullptr;
   Side side_ = Side::left;
   std::array<float, kMeetings> allowed_{};
-  Eigen::Vector3f passing_;  ///< from border to border, of this hand as the other sees it; metres, model space
-  Eigen::Vector3f apart_;    ///< unit, the direction in which the hands were led apart at first; zero: they were not
-  float led_apart_ = 0;      ///< so far in that direction, metres
-  float hand_reach_ = 0;     ///< from the wrist to what is farthest of the hand at a border, metres
-  std::vector<Knot> knots_, added_;  ///< by frame, both borders among them
+  Eigen::Vector3f passing_;  ///< motion of this hand relative to the other from border to border; metres, model space
+  Eigen::Vector3f apart_;    ///< unit, the direction in which the hands were first moved apart; zero: they were not
+  float led_apart_ = 0;      ///< total in that direction, metres
+  float hand_reach_ = 0;     ///< from the wrist to the farthest point of the hand at a border, metres
+  std::vector<Knot> knots_, added_;  ///< by frame, including both borders
   std::vector<Correction> corrections_;
 };
 

@@ -13,8 +13,8 @@ using Eigen::AngleAxisf;
 using Eigen::Quaternionf;
 using Eigen::Vector3f;
 
-/// The test person's left hand goes from one side of the trunk to the other, low and with a bent elbow: straight
-/// through.
+/// The test person's left hand moves from one side of the trunk to the other, low and with a bent elbow: straight
+/// through it.
 struct ThroughTheTrunk {
   std::shared_ptr<const Skeleton> skeleton;
   Motion before, after;
@@ -43,7 +43,7 @@ struct ThroughTheTrunk {
       }
     };
     set(Part::left_upper_arm, Quaternionf(AngleAxisf(-1.3f, Vector3f::UnitZ())));
-    // Turned out of the plane of the trunk: forward for a negative turn, backward for a positive one.
+    // Rotated out of the plane of the trunk: forwards for a negative angle, backwards for a positive one.
     set(Part::left_forearm,
         Quaternionf(AngleAxisf(1.2f * turn, Vector3f::UnitX())) * Quaternionf(AngleAxisf(-1.9f, Vector3f::UnitZ())));
     return motion;
@@ -55,7 +55,7 @@ struct ThroughTheTrunk {
                                   made.poses({0, gap.count}));
     return made;
   }
-  /// How deep the hand is in the trunk, at most; metres.
+  /// Maximum depth of the hand in the trunk, metres.
   float deepest(const Motion& motion) const {
     float depth = 0;
     for (std::int64_t frame = 0; frame < motion.frame_count(); ++frame) {
@@ -80,13 +80,13 @@ TEST(BodyGuardOfATestPerson, GuardsHandsWithAndWithoutFingers) {
     const float allowed = std::max(through.deepest(through.before), through.deepest(through.after)) + 0.004f;
     ASSERT_GT(through.deepest(made), allowed + 0.02f) << fingers;
     BodyGuard guard(*through.skeleton, through.signer, through.groups);
-    EXPECT_TRUE(guard.mend(through.gap, GroupSet::all(), made.poses({0, made.frame_count()})));
+    EXPECT_TRUE(guard.repair(through.gap, GroupSet::all(), made.poses({0, made.frame_count()})));
     EXPECT_LT(through.deepest(made), allowed) << fingers;
   }
 }
 
-/// Both arms forward and raised by an angle, with forearms turned inwards by another, which is less by `less` in the
-/// first and the last frame.
+/// Both arms forwards and raised by an angle, with forearms turned inwards by another angle, which is smaller by `less`
+/// in the first and the last frame.
 Motion arms_forward(const ThroughTheTrunk& person, float raised, float most_inwards, std::int64_t frames,
                     float less = 0) {
   Motion motion(person.skeleton, {100, 1}, frames);
@@ -110,8 +110,8 @@ Vector3f wrist_of(const ThroughTheTrunk& person, const Motion& motion, Part hand
   return position_of(person.signer.rig[hand], to_model_space(*person.skeleton, motion.pose(motion.frame_count() / 2)));
 }
 
-/// How far a guard leads the left hand that lies in the right one, wrists so far apart, between borders at which hands
-/// are beside each other. Metres.
+/// How far a guard moves the left hand, which is inside the right one with the wrists `wrists` apart, between borders
+/// with the hands next to each other. Metres.
 float led_apart(float wrists) {
   ThroughTheTrunk person(true);
   float inwards = 0;
@@ -128,11 +128,11 @@ float led_apart(float wrists) {
   const Motion inside = arms_forward(person, 0, inwards, person.gap.count, 0.2f);
   Motion made = inside;
   BodyGuard guard(*person.skeleton, person.signer, person.groups);
-  guard.mend(person.gap, {JointGroup::left_arm}, made.poses({0, made.frame_count()}));
+  guard.repair(person.gap, {JointGroup::left_arm}, made.poses({0, made.frame_count()}));
   return (wrist_of(person, made, Part::left_hand) - wrist_of(person, inside, Part::left_hand)).norm();
 }
 
-TEST(BodyGuardOfATestPerson, LeadsAHandNoFartherOutOfTheOtherThanItsBreadth) {
+TEST(BodyGuardOfATestPerson, MovesAHandOutOfTheOtherByAtMostItsBreadth) {
   EXPECT_GT(led_apart(0.2f), 0.05f);
   for (const float wrists : {0.2f, 0.16f, 0.12f, 0.08f}) EXPECT_LT(led_apart(wrists), 0.101f) << wrists;
 }
@@ -141,13 +141,13 @@ TEST(BodyGuardOfATestPerson, TheSecondGapAllocatesNothing) {
   const ThroughTheTrunk through(true);
   BodyGuard guard(*through.skeleton, through.signer, through.groups);
   Motion first = through.filled();
-  guard.mend(through.gap, GroupSet::all(), first.poses({0, first.frame_count()}));
+  guard.repair(through.gap, GroupSet::all(), first.poses({0, first.frame_count()}));
   Motion second = through.filled();
   EXPECT_EQ(allocations_in([&] {
-              guard.mend(through.gap, GroupSet::all(), second.poses({0, second.frame_count()}));
+              guard.repair(through.gap, GroupSet::all(), second.poses({0, second.frame_count()}));
             }),
             0u);
-  // And makes the same, whatever was made before.
+  // The result does not depend on earlier calls.
   for (std::size_t i = 0; i < first.rotations().size(); ++i) {
     ASSERT_EQ(first.rotations()[i].coeffs(), second.rotations()[i].coeffs());
   }

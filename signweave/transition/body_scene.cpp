@@ -15,8 +15,8 @@ std::size_t joint_slot(JointIndex joint) {
   return static_cast<std::size_t>(joint);
 }
 
-/// As far as a hand reaches from its wrist with every finger stretched.
-float stretched_of(const HandPoints& hand, const CapsuleRow& bars, float from_wrist) {
+/// Reach of a hand from its wrist with all fingers extended.
+float max_reach_of(const HandPoints& hand, const CapsuleRow& bars, float from_wrist) {
   float most = from_wrist;
   float thickest = 0;
   for (std::size_t i = 0; i < bars.count; ++i) thickest = std::max(thickest, bars.radius[i]);
@@ -52,7 +52,7 @@ BodyScene::BodyScene(const Skeleton& skeleton, const SignerModel& signer, const 
     if (!hand.has_wrist() || above == kNoJoint) continue;
     std::vector<JointIndex> in_hand{wrist};
     hand.add_joints(in_hand);
-    // A finger that does not hang on the wrist has no shape of its own.
+    // A finger that is not a descendant of the wrist has no shape of its own.
     if (!std::ranges::all_of(in_hand,
                              [&](JointIndex joint) { return joint == wrist || is_above(skeleton, wrist, joint); })) {
       continue;
@@ -85,7 +85,7 @@ void BodyScene::begin(const Gap& gap, MutablePoses made) {
     places_[s].begin(frames);
     if (!has(side)) continue;
     const Hand& hand = hand_of(side, -1);
-    stretched_[s] = stretched_of(hand.points, hand.bars, hand.from_wrist);
+    max_reach_[s] = max_reach_of(hand.points, hand.bars, hand.from_wrist);
   }
 }
 
@@ -122,13 +122,13 @@ const BodyScene::Body& BodyScene::body_of(std::int64_t frame) {
 const BodyScene::Hand& BodyScene::hand_of(Side side, std::int64_t frame) {
   Known<Hand>& hands = hands_[static_cast<std::size_t>(side)];
   if (const Hand* const known = hands.find(frame)) return *known;
-  // Without fingers one bar follows the forearm, which is bent, so that it is computed anew.
+  // Without fingers, one bar depends on the forearm, which may be corrected, so it is recomputed each time.
   Hand& hand = has_fingers(side) ? hands.add(frame) : bars_[static_cast<std::size_t>(side)];
   const Arm& of = arm(side);
   const PoseView pose = pose_of(frame);
   of.fingers.to_model_space(pose, in_hand_);
   of.hand->read(in_hand_, hand.points);
-  std::optional<Vector3f> elbow;  // looked at where there are no fingers
+  std::optional<Vector3f> elbow;  // used if there are no fingers
   if (!has_fingers(side)) elbow = hand.points.wrist - forearm(side, frame);
   const HandShell shell = shell_of(hand.points, elbow, *signer_->body);
   hand.from_wrist = shell.reach;
@@ -164,47 +164,47 @@ const ArmPlace& BodyScene::stored_place(Side side, std::int64_t frame) {
 
 Vector3f BodyScene::forearm(Side side, std::int64_t frame) const {
   const PoseView pose = pose_of(frame);
-  Vector3f way = Vector3f::Zero();  // from a joint of the chain to the wrist, in the space of its parent
-  Eigen::Quaternionf turn = Eigen::Quaternionf::Identity();  // the wrist's, seen from there
+  Vector3f to_wrist = Vector3f::Zero();  // from a joint of the chain to the wrist, in the space of its parent
+  Eigen::Quaternionf turn = Eigen::Quaternionf::Identity();  // the wrist's rotation in that space
   const std::vector<Link>& links = arm(side).forearm;
   for (std::size_t i = 0; i < links.size(); ++i) {
     const Link& link = links[i];
     const Eigen::Quaternionf& local = pose.rotations[joint_slot(link.joint)];
-    way = (link.translation < 0 ? link.offset : pose.translations[static_cast<std::size_t>(link.translation)]) +
-          (i > 0 ? Vector3f(local * way) : Vector3f::Zero());
+    to_wrist = (link.translation < 0 ? link.offset : pose.translations[static_cast<std::size_t>(link.translation)]) +
+               (i > 0 ? Vector3f(local * to_wrist) : Vector3f::Zero());
     turn = i > 0 ? local * turn : local;
   }
-  return turn.conjugate() * way;
+  return turn.conjugate() * to_wrist;
 }
 
-/// The hand in one part of the body.
+/// Depth of the hand in one part of the body.
 Depth BodyScene::hand_in(const Capsule& part, Side side, std::int64_t frame, const ArmPlace& here) {
-  const float far = clearance({here.wrist, here.wrist, stretched_[static_cast<std::size_t>(side)]}, part);
+  const float far = clearance({here.wrist, here.wrist, max_reach_[static_cast<std::size_t>(side)]}, part);
   if (far > 0) return {.depth = -far};
   const Hand& hand = hand_of(side, frame);
   const Vector3f middle = here.wrist + here.hand * hand.middle;
   const float near = clearance({middle, middle, hand.reach}, part);
   if (near > 0) return {.depth = -near, .by_shape = true};
-  // Seen from the wrist.
+  // In the space of the wrist.
   const Eigen::Quaternionf back = here.hand.conjugate();
-  const Capsule beside{back * (part.from - here.wrist), back * (part.to - here.wrist), part.radius};
+  const Capsule local{back * (part.from - here.wrist), back * (part.to - here.wrist), part.radius};
   CapsuleRow::Numbers clear;
-  clearances(beside, hand.bars, 0, clear);
+  clearances(local, hand.bars, 0, clear);
   const auto nearest = static_cast<std::size_t>(
       std::min_element(clear.begin(), clear.begin() + static_cast<std::ptrdiff_t>(hand.bars.count)) - clear.begin());
-  const Approach approached = approach(hand.bars[nearest], beside);
+  const Approach approached = approach(hand.bars[nearest], local);
   return {.depth = -approached.clearance, .out = here.hand * approached.away, .by_shape = true};
 }
 
-/// The hand in the other one.
+/// Depth of the hand in the other hand.
 Depth BodyScene::hand_in_hand(Side side, std::int64_t frame, const ArmPlace& here) {
-  const Side beside = side == Side::left ? Side::right : Side::left;
-  if (!has(beside)) return {.depth = -1};
-  const ArmPlace& other = stored_place(beside, frame);
-  const float far = (here.wrist - other.wrist).norm() - stretched_[0] - stretched_[1];
+  const Side other_side = side == Side::left ? Side::right : Side::left;
+  if (!has(other_side)) return {.depth = -1};
+  const ArmPlace& other = stored_place(other_side, frame);
+  const float far = (here.wrist - other.wrist).norm() - max_reach_[0] - max_reach_[1];
   if (far > 0) return {.depth = -far};
   const Hand& hand = hand_of(side, frame);
-  const Hand& there = hand_of(beside, frame);
+  const Hand& there = hand_of(other_side, frame);
   // The other hand in the space of this one's wrist.
   const Eigen::Quaternionf back = here.hand.conjugate();
   const Eigen::Quaternionf turned = back * other.hand;
@@ -217,7 +217,7 @@ Depth BodyScene::hand_in_hand(Side side, std::int64_t frame, const ArmPlace& her
   std::size_t own = 0;
   std::size_t other_bar = 0;
   CapsuleRow::Numbers clear;
-  // No bar is nearer to one of the other hand's than to the ball that has them all.
+  // The distance to the bounding sphere of the other hand is a lower bound for its bars.
   CapsuleRow::Numbers at_least;
   clearances({ball, ball, there.reach}, hand.bars, 0, at_least);
   for (std::size_t i = 0; i < hand.bars.count; ++i) {
@@ -237,7 +237,7 @@ Depth BodyScene::hand_in_hand(Side side, std::int64_t frame, const ArmPlace& her
 ArmPlace BodyScene::look(Side side, std::int64_t frame, Depths& depths) {
   const Body& body = body_of(frame);
   const ArmPlace here = place(side, frame);
-  // Through the middle of a trunk forward is out.
+  // On the axis of the trunk, forward is the way out.
   const auto out_of = [&](const Vector3f& away) { return away.isZero() ? body.forward : away; };
   const Capsule forearm = forearm_bar(here.elbow, here.wrist, *signer_->body);
   for (std::size_t i = 0; i < body.shell.torso.size(); ++i) {

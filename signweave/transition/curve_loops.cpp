@@ -10,8 +10,8 @@
 namespace signweave::curve_loops {
 namespace {
 
-/// Twice the arcsine of the root of `square` over that root, by its series: off by less than 2e-8 of it up to
-/// kSeriesSquare. The rotation vector of a unit quaternion is its vector times this of the vector's square.
+/// 2 · arcsin(√square) / √square by its series; the relative error is below 2e-8 up to kSeriesSquare. The rotation
+/// vector of a unit quaternion is its vector part multiplied by this function of that part's square.
 [[gnu::always_inline]] inline float angle_over_sine(float square) noexcept {
   const float x = square;
   float sum = 1 + x * (289.0f / 342);
@@ -28,7 +28,7 @@ namespace {
 constexpr float kSeriesSquare = 0.25f;    // half an angle of 30°
 constexpr float kSeriesQuarter = 0.617f;  // a quarter of an angle of 45°
 
-/// Where each number of some rotations lies, [x y z w][count].
+/// Pointers to the components of rotations stored as [x y z w][count].
 struct Planes {
   const float* x;
   const float* y;
@@ -111,27 +111,27 @@ SIGNWEAVE_VECTOR_CLONES void add_differences(std::span<const float> weights, con
   for (std::size_t i = 0; i < width; ++i) out[i] *= factor;
 }
 
-SIGNWEAVE_VECTOR_CLONES void add_up(std::span<const float> row, const float* ways, std::size_t stride,
+SIGNWEAVE_VECTOR_CLONES void add_up(std::span<const float> row, const float* vectors, std::size_t stride,
                                     std::size_t width, float* out) noexcept {
   if (width < kLanes) {
     for (std::size_t i = 0; i < width; ++i) {
       float sum = 0;
-      for (std::size_t term = 0; term < row.size(); ++term) sum += row[term] * ways[term * stride + i];
+      for (std::size_t term = 0; term < row.size(); ++term) sum += row[term] * vectors[term * stride + i];
       out[i] = sum;
     }
     return;
   }
   std::fill_n(out, width, 0.0f);
   for (std::size_t term = 0; term < row.size(); ++term) {
-    const float* const way = ways + term * stride;
+    const float* const vector = vectors + term * stride;
     SIGNWEAVE_INDEPENDENT
-    for (std::size_t i = 0; i < width; ++i) out[i] += row[term] * way[i];
+    for (std::size_t i = 0; i < width; ++i) out[i] += row[term] * vector[i];
   }
 }
 
 namespace {
 
-/// One number of each joint of a block. In two blocks at once no sum waits for the one before it.
+/// One value for each joint of a block. Processing two blocks at once hides the latency of sums.
 using OneBlock = float __attribute__((vector_size(kLanes * sizeof(float))));
 using TwoBlocks = float __attribute__((vector_size(2 * kLanes * sizeof(float))));
 template <class Lanes>
@@ -145,7 +145,7 @@ template <class Lanes>
 [[gnu::always_inline]] inline void write(const Lanes& lanes, float* to) noexcept {
   std::memcpy(to, &lanes, sizeof lanes);
 }
-/// Whether a comparison is true of some lane.
+/// True if a comparison is true in any lane.
 template <class Answers>
 [[gnu::always_inline]] inline bool any(const Answers& answers) noexcept {
   std::uint64_t pairs[sizeof answers / sizeof(std::uint64_t)];
@@ -164,24 +164,24 @@ struct Block {
 };
 
 template <class Lanes>
-[[gnu::always_inline]] inline void add_up_block(std::span<const float> row, const float* ways, std::size_t width,
+[[gnu::always_inline]] inline void add_up_block(std::span<const float> row, const float* vectors, std::size_t width,
                                                 Block<Lanes>& out) noexcept {
   out = Block<Lanes>{};
   for (const float weight : row) {
     Lanes x;
     Lanes y;
     Lanes z;
-    read(ways, x);
-    read(ways + width, y);
-    read(ways + 2 * width, z);
+    read(vectors, x);
+    read(vectors + width, y);
+    read(vectors + 2 * width, z);
     out.x += weight * x;
     out.y += weight * y;
     out.z += weight * z;
-    ways += 3 * width;
+    vectors += 3 * width;
   }
 }
 
-/// Most blocks are within their reaches: roots and quotients are had for the others alone.
+/// Most blocks are within their reaches; roots and quotients are computed only for the others.
 template <class Lanes>
 [[gnu::always_inline]] inline void keep_within(const float* seen, const float* margins, Block<Lanes>& block) noexcept {
   Lanes least;
@@ -203,15 +203,16 @@ template <class Lanes>
   block.z *= scale;
 }
 
-/// Returns whether some angle is too large for the series.
+/// Returns true if an angle is too large for the series.
 template <class Lanes>
 [[gnu::always_inline]] inline bool turn_block(const Block<Lanes>& block, const Planes& middles, std::size_t count,
                                               float* q) noexcept {
   const Lanes& x = block.x;
   const Lanes& y = block.y;
   const Lanes& z = block.z;
-  const Lanes square = 0.0625f * (x * x + y * y + z * z);  // of a quarter of the angle
-  // Sine (over the quarter angle) and cosine by their series, off by less than 3e-8, and the half angle's from them.
+  const Lanes square = 0.0625f * (x * x + y * y + z * z);  // square of a quarter of the angle
+  // Sine (divided by the quarter angle) and cosine by their series, with errors below 3e-8; from them those of the half
+  // angle.
   const Lanes sine =
       1 - square * (1.0f / 6) * (1 - square * (1.0f / 20) * (1 - square * (1.0f / 42) * (1 - square * (1.0f / 72))));
   const Lanes cosine =
@@ -260,7 +261,7 @@ template <class Lanes>
 [[gnu::always_inline]] inline void make_block(std::span<const float> row, const Turns& turns, std::size_t begin,
                                               float* q) noexcept {
   Block<Lanes> block;
-  add_up_block(row, turns.ways + begin, turns.width, block);
+  add_up_block(row, turns.vectors + begin, turns.width, block);
   keep_within(turns.reaches.seen.data() + begin, turns.reaches.margins.data() + begin, block);
   const Planes middles = planes_of(turns.middles, turns.count);
   const Planes of_block = {middles.x + begin, middles.y + begin, middles.z + begin, middles.w + begin};

@@ -9,8 +9,8 @@
 namespace signweave {
 namespace {
 
-/// The least squares quadratic through [0, most] of a path whose samples lie `step` seconds apart, looked at in [0].
-/// Sums of powers stand in closed form, so that nothing is solved but a 3 × 3 system.
+/// Derivatives at [0] of the least-squares quadratic through [0, most] of a path with samples `step` seconds apart.
+/// Sums of powers are in closed form, so only a 3 × 3 system is solved.
 BorderMotion quadratic(std::span<const Eigen::Vector3f> path, double step) noexcept {
   BorderMotion motion;
   const auto wanted = static_cast<std::size_t>(std::llround(kVelocityWindow / std::abs(step)));
@@ -82,41 +82,41 @@ BorderVelocity::BorderVelocity(std::size_t samples, double hertz) noexcept {
 GapTime::GapTime(const Gap& gap) noexcept
     : count_(static_cast<double>(gap.count + 1)),
       seconds_(gap.duration().count()),
-      way_(std::min(seconds_, kLongestWay)) {
+      curve_seconds_(std::min(seconds_, kLongestCurve)) {
   if (gap.pause <= Seconds(0)) return;
   pauses_ = true;
-  way_ = std::min(way_, std::max(seconds_ - gap.pause.count(), gap.rate.frame_time().count()));
+  curve_seconds_ = std::min(curve_seconds_, std::max(seconds_ - gap.pause.count(), gap.rate.frame_time().count()));
 }
 
 GapTime GapTime::even(const Gap& gap) noexcept {
   GapTime time(gap);
-  if (!time.pauses_) time.way_ = time.seconds_;
+  if (!time.pauses_) time.curve_seconds_ = time.seconds_;
   return time;
 }
 
 double GapTime::at(std::int64_t frame) const noexcept {
   const double t = static_cast<double>(frame + 1) / count_;
-  if (!(way_ < seconds_)) return t;
+  if (!(curve_seconds_ < seconds_)) return t;
   if (pauses_) {
-    // The speed falls from 1 to 0 and rises again, as below; between the two it rests.
-    const double ease = std::min({kPauseEase, way_, seconds_ - way_});
-    const double rest = seconds_ - way_ - ease;
+    // The speed falls from 1 to 0, stays 0, and rises again, with the same easing as below.
+    const double ease = std::min({kPauseEase, curve_seconds_, seconds_ - curve_seconds_});
+    const double rest = seconds_ - curve_seconds_ - ease;
     const double since = t * seconds_;
     const auto eased = [&](double x) { return ease * (x - x * x * x + 0.5 * x * x * x * x); };
-    if (since <= ease) return eased(since / ease) / way_;
-    if (since <= ease + rest) return 0.5 * ease / way_;
+    if (since <= ease) return eased(since / ease) / curve_seconds_;
+    if (since <= ease + rest) return 0.5 * ease / curve_seconds_;
     const double until = 2 * ease + rest;
-    if (since < until) return (ease - eased((until - since) / ease)) / way_;
-    return (ease + since - until) / way_;
+    if (since < until) return (ease - eased((until - since) / ease)) / curve_seconds_;
+    return (ease + since - until) / curve_seconds_;
   }
   if (t > 0.5) return 1 - at(static_cast<std::int64_t>(count_) - 2 - frame);
-  // The speed falls from 1 to `slow` within `ease`, as 1 − 3x² + 2x³ does.
-  const double ease = way_ / 2;
+  // The speed falls from 1 to `slow` within `ease`, as 1 − 3x² + 2x³.
+  const double ease = curve_seconds_ / 2;
   const double slow = ease / (seconds_ - ease);
   const double since = t * seconds_;
   const double x = std::min(1.0, since / ease);
   const double gone = ease * (x - x * x * x + 0.5 * x * x * x * x);
-  return (slow * since + (1 - slow) * gone) / way_;
+  return (slow * since + (1 - slow) * gone) / curve_seconds_;
 }
 
 Eigen::Vector3f rotation_vector(const Eigen::Quaternionf& q) noexcept {
@@ -128,7 +128,7 @@ Eigen::Vector3f rotation_vector(const Eigen::Quaternionf& q) noexcept {
 Eigen::Quaternionf rotation_of(const Eigen::Vector3f& vector) noexcept {
   const float square = 0.25f * vector.squaredNorm();  // of the half angle
   const float half = std::sqrt(square);
-  // Near nothing the sine is the angle, and its quotient 1.
+  // For small angles sin(x) / x is replaced by its series.
   const float factor = half > 1e-4f || !(half >= 0) ? std::sin(half) / half : 1 - square / 6;
   const Eigen::Vector3f axis = vector * (0.5f * factor);
   return {std::cos(half), axis.x(), axis.y(), axis.z()};
@@ -153,16 +153,17 @@ Eigen::Quaternionf see_joint(const Gap& gap, std::size_t joint, GapScratch& scra
   const Eigen::Quaternionf right = gap.right().rotations[joint];
   Eigen::Quaternionf middle = middle_of(left, right);
   const Eigen::Quaternionf back = middle.conjugate();
-  // Neighbours keep one hemisphere, so one sign a side lets a way go on beyond half a turn from the middle.
-  const auto see = [&](const PosesView& side, std::int64_t border, int step, std::vector<Eigen::Vector3f>& way) {
+  // Consecutive frames are in one hemisphere, so one sign per side lets a trajectory exceed half a turn from the
+  // middle.
+  const auto see = [&](const PosesView& side, std::int64_t border, int step, std::vector<Eigen::Vector3f>& path) {
     const std::int64_t count = context_frames(side, gap.rate);
     const std::size_t joints = side.joints();
-    way.resize(static_cast<std::size_t>(count));
+    path.resize(static_cast<std::size_t>(count));
     Eigen::Quaternionf last = middle;
     for (std::int64_t k = 0; k < count; ++k) {
       Eigen::Quaternionf q = side.rotations[static_cast<std::size_t>(border + k * step) * joints + joint];
       if (last.dot(q) < 0) q.coeffs() *= -1.0f;
-      way[static_cast<std::size_t>(k)] = rotation_vector(back * q);
+      path[static_cast<std::size_t>(k)] = rotation_vector(back * q);
       last = q;
     }
   };
@@ -173,12 +174,12 @@ Eigen::Quaternionf see_joint(const Gap& gap, std::size_t joint, GapScratch& scra
 
 Eigen::Vector3f see_translation(const Gap& gap, std::size_t translation, GapScratch& scratch) {
   Eigen::Vector3f middle = 0.5f * (gap.left().translations[translation] + gap.right().translations[translation]);
-  const auto see = [&](const PosesView& side, std::int64_t border, int step, std::vector<Eigen::Vector3f>& way) {
+  const auto see = [&](const PosesView& side, std::int64_t border, int step, std::vector<Eigen::Vector3f>& path) {
     const std::int64_t count = context_frames(side, gap.rate);
     const std::size_t moved = side.moved();
-    way.resize(static_cast<std::size_t>(count));
+    path.resize(static_cast<std::size_t>(count));
     for (std::int64_t k = 0; k < count; ++k) {
-      way[static_cast<std::size_t>(k)] =
+      path[static_cast<std::size_t>(k)] =
           side.translations[static_cast<std::size_t>(border + k * step) * moved + translation] - middle;
     }
   };
@@ -234,7 +235,8 @@ void see_all(const GapJob& job) {
       scratch.middles[static_cast<std::size_t>(axis) * scratch.turned + i] = middle.coeffs()[axis];
     }
   }
-  // Neighbours keep one hemisphere, so one sign a side lets a way go on beyond half a turn from the middle.
+  // Consecutive frames are in one hemisphere, so one sign per side lets a trajectory exceed half a turn from the
+  // middle.
   see_side(gap, gap.before, gap.before.frames - 1, -1, scratch, scratch.seen[0]);
   see_side(gap, gap.after, 0, 1, scratch, scratch.seen[1]);
 }
@@ -275,7 +277,7 @@ void set_reaches(const GapJob& job) {
   for (std::size_t i = 0; i < scratch.turned; ++i) {
     seen[i] = std::sqrt(seen[i]);
     const JointRole role = job.gap.groups->roles[scratch.taken[i]];
-    // Radians: about 10° for fingers, 25° for an elbow or a wrist, 45° for a shoulder.
+    // Radians: about 10° for fingers, 45° for a shoulder, 25° for all others, such as elbow and wrist.
     margins[i] = role == JointRole::finger ? 0.17f : role == JointRole::shoulder ? 0.8f : 0.45f;
   }
 }
@@ -295,7 +297,7 @@ void make_frame(const GapJob& job, std::int64_t frame, MutablePoses out) noexcep
   scratch.made.resize(4 * turned + moved);
   float* const turns = scratch.made.data();
   curve_loops::make_turns(scratch.row,
-                          {.ways = scratch.ways.data(),
+                          {.vectors = scratch.vectors.data(),
                            .reaches = scratch.reaches,
                            .middles = scratch.middles.data(),
                            .count = turned,
@@ -309,7 +311,7 @@ void make_frame(const GapJob& job, std::int64_t frame, MutablePoses out) noexcep
   Eigen::Vector3f* const translations = out.translations.data() + static_cast<std::size_t>(frame) * gap.before.moved();
   float* const shifts = turns + 4 * turned;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    curve_loops::add_up(scratch.row, scratch.ways.data() + axis * taken + turned, 3 * taken, moved, shifts);
+    curve_loops::add_up(scratch.row, scratch.vectors.data() + axis * taken + turned, 3 * taken, moved, shifts);
     const auto on = static_cast<Eigen::Index>(axis);
     for (std::size_t i = 0; i < moved; ++i) {
       const std::size_t at = scratch.taken[turned + i];

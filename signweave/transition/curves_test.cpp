@@ -14,15 +14,15 @@ namespace {
 
 using namespace testing_way;
 
-TEST(Curves, RotationVectorsComeBack) {
+TEST(Curves, RotationVectorsRoundTrip) {
   for (const double angle : {0.0, 1e-9, 1e-4, 1.0, std::numbers::pi - 1e-4, std::numbers::pi, 5.0, 6.2}) {
-    const Eigen::Quaternionf q = about({1, 2, -1}, angle);  // as signed: beyond half a turn w is below 0
+    const Eigen::Quaternionf q = about({1, 2, -1}, angle);  // with this sign: beyond half a turn w is negative
     EXPECT_NEAR(rotation_vector(q).norm(), angle, 2e-5) << angle;
     EXPECT_LT((rotation_of(rotation_vector(q)).coeffs() - q.coeffs()).norm(), 2e-6f) << angle;
   }
 }
 
-TEST(Curves, AQuadraticHasItsDerivatives) {
+TEST(Curves, DerivativesOfAQuadraticAreExact) {
   for (const double hertz : {5.0, 30.0, 120.0, 2000.0}) {
     std::vector<Eigen::Vector3f> path;
     for (int k = 0; k < 200; ++k) {
@@ -32,13 +32,13 @@ TEST(Curves, AQuadraticHasItsDerivatives) {
     const BorderMotion after = motion_after(path, hertz);
     EXPECT_LT((after.velocity - Eigen::Vector3f(2, 0, 0)).norm(), 2e-3f) << hertz;
     EXPECT_LT((after.acceleration - Eigen::Vector3f(-6, 0, 1)).norm(), 0.1f) << hertz;
-    const BorderMotion before = motion_before(path, hertz);  // the same path, seen as going backwards
+    const BorderMotion before = motion_before(path, hertz);  // the same path, reversed
     EXPECT_LT((before.velocity - Eigen::Vector3f(-2, 0, 0)).norm(), 2e-3f) << hertz;
     EXPECT_LT((before.acceleration - Eigen::Vector3f(-6, 0, 1)).norm(), 0.1f) << hertz;
   }
 }
 
-TEST(Curves, OfFewFramesAsMuchAsTheyTell) {
+TEST(Curves, FewFramesGiveLowerOrderDerivatives) {
   const std::vector<Eigen::Vector3f> path = {{0, 0, 0}, {0.1f, 0, 0}};
   EXPECT_EQ(motion_after(std::span(path).first(1), 100).velocity, Eigen::Vector3f::Zero());
   EXPECT_NEAR(motion_after(path, 100).velocity.x(), 10, 1e-5f);
@@ -53,23 +53,23 @@ Gap gap_of(std::int64_t count, double hertz) {
   return gap;
 }
 
-TEST(GapTime, GoesByAsItIsInWhatIsNotLong) {
+TEST(GapTime, ShortGapsAreNotSlowed) {
   const Gap gap = gap_of(149, 100);
   const GapTime time(gap);
   EXPECT_EQ(time.seconds(), gap.duration().count());
   for (std::int64_t frame = 0; frame < 149; ++frame) EXPECT_EQ(time.at(frame), static_cast<double>(frame + 1) / 150);
 }
 
-TEST(GapTime, RisesEvenlyFromBorderToBorderAndAtTheBordersAsTimeDoes) {
+TEST(GapTime, IsMonotonicAndHasUnitSpeedAtTheBorders) {
   for (const std::int64_t count : {150, 151, 299, 3000, 100'000}) {
     const Gap gap = gap_of(count, 100);
     const GapTime time(gap);
-    EXPECT_EQ(time.seconds(), kLongestWay);
+    EXPECT_EQ(time.seconds(), kLongestCurve);
     double last = 0;
     double speed = 1;
     for (std::int64_t frame = 0; frame <= count; ++frame) {
       const double at = frame < count ? time.at(frame) : 1.0;
-      const double step = (at - last) * kLongestWay * 100;  // curve time gone by in a frame's time
+      const double step = (at - last) * kLongestCurve * 100;  // curve time per frame time
       ASSERT_GT(step, 0);
       ASSERT_LE(step, 1 + 1e-6);
       ASSERT_NEAR(step, speed, 0.021) << count << ' ' << frame;
@@ -79,20 +79,20 @@ TEST(GapTime, RisesEvenlyFromBorderToBorderAndAtTheBordersAsTimeDoes) {
       speed = step;
       last = at;
     }
-    EXPECT_NEAR(time.at(0) * kLongestWay, 0.01, 1e-5);
+    EXPECT_NEAR(time.at(0) * kLongestCurve, 0.01, 1e-5);
     EXPECT_NEAR(speed, 1, 1e-3);
     EXPECT_EQ(GapTime::even(gap).at(1), 2.0 / static_cast<double>(count + 1));
   }
 }
 
-/// A gap's kriging weights at a moment.
+/// A gap's kriging weights at a time.
 std::vector<float> weights(const Kriging& kriging, double t) {
   std::vector<float> row(kriging.terms());
   kriging.row(t, 0, row.data());
   return row;
 }
 
-TEST(Kriging, WeightsSumToOneAndAreThoseOfTheBordersThere) {
+TEST(Kriging, WeightsSumToOneAndSelectTheBordersAtTheBorders) {
   const JointGroups of = groups();
   std::vector<double> memory;
   for (const FrameRate rate : {FrameRate{1, 1}, FrameRate{24, 1}, FrameRate{120, 1}, FrameRate{2000, 1}}) {
@@ -100,15 +100,15 @@ TEST(Kriging, WeightsSumToOneAndAreThoseOfTheBordersThere) {
     for (const std::int64_t count : {1, 5, 60, 500}) {
       for (const std::int64_t context : {1, 2, 1000}) {
         const Gap gap = cut(motion, of, {200, 200 + count}, context);
-        const Kriging kriging(gap, GapTime(gap), memory, Kriging::Weights::anew);
+        const Kriging kriging(gap, GapTime(gap), memory, Kriging::Weights::solved);
         ASSERT_LE(kriging.terms(), 20u);
-        std::size_t left = 0;  // how many of the samples are of the left side: its border's is the first
+        std::size_t left = 0;  // number of samples of the left side, its border first
         for (const double t : {0.0, 0.1, 0.5, 0.77, 1.0}) {
           const std::vector<float> row = weights(kriging, t);
           float sum = 0;
           for (const float weight : row) sum += weight;
           EXPECT_NEAR(sum, 1, 1e-3) << rate.hertz() << ' ' << count << ' ' << t;
-          if (count == 1) continue;  // a millisecond apart, each border is as good as the other
+          if (count == 1) continue;  // a millisecond apart, both borders have the same weight
           if (t == 0.0) {
             EXPECT_NEAR(row[0], 1, 2e-2) << rate.hertz() << ' ' << count;
           }
@@ -122,7 +122,7 @@ TEST(Kriging, WeightsSumToOneAndAreThoseOfTheBordersThere) {
   }
 }
 
-TEST(Kriging, WeightsThatAreKeptAreThoseThatAreSolved) {
+TEST(Kriging, CachedWeightsEqualSolvedOnes) {
   const JointGroups of = groups();
   std::vector<double> memory;
   for (const FrameRate rate : {FrameRate{30, 1}, FrameRate{97, 1}}) {
@@ -132,7 +132,7 @@ TEST(Kriging, WeightsThatAreKeptAreThoseThatAreSolved) {
       for (const double pause : {0.0, 0.4}) {
         gap.pause = Seconds(pause);
         const GapTime time(gap);
-        const Kriging solved(gap, time, memory, Kriging::Weights::anew);
+        const Kriging solved(gap, time, memory, Kriging::Weights::solved);
         std::vector<float> expected;
         for (std::int64_t frame = 0; frame < count; ++frame) {
           expected.resize(expected.size() + solved.terms());
@@ -153,7 +153,7 @@ TEST(Kriging, WeightsThatAreKeptAreThoseThatAreSolved) {
   }
 }
 
-TEST(Curves, JointsSeenTogetherAreSeenAsEachAlone) {
+TEST(Curves, SamplingAllJointsEqualsSamplingEach) {
   const JointGroups of = groups();
   const Motion motion = lively(3.7, {100, 1}, 400);
   for (const std::int64_t count : {5, 60, 200}) {
@@ -174,7 +174,7 @@ TEST(Curves, JointsSeenTogetherAreSeenAsEachAlone) {
   }
 }
 
-TEST(Curves, WaysOfAllJointsAreThoseOfEach) {
+TEST(Curves, VectorsOfAllJointsEqualThoseOfEach) {
   const JointGroups of = groups();
   for (const std::uint32_t hertz : {24u, 100u, 500u}) {
     const Motion motion = lively(1.9, {hertz, 1}, 4 * hertz);
@@ -186,14 +186,14 @@ TEST(Curves, WaysOfAllJointsAreThoseOfEach) {
     std::vector<double> memory;
     const auto compare = [&](const auto& family) {
       const std::size_t width = 3 * scratch.taken.size();
-      std::vector<float> ways(family.terms() * width);
-      family.ways(scratch, time.seconds(), ways.data());
+      std::vector<float> vectors(family.terms() * width);
+      family.vectors(scratch, time.seconds(), vectors.data());
       std::vector<Eigen::Vector3f> own(family.terms());
       for (std::size_t i = 0; i < scratch.taken.size(); ++i) {
         family.coefficients(sides_of(job, i, time.seconds()), own.data());
         for (std::size_t k = 0; k < own.size() * 3; ++k) {
-          const float way = ways[k / 3 * width + k % 3 * scratch.taken.size() + i];
-          EXPECT_NEAR(way, own[k / 3][static_cast<Eigen::Index>(k % 3)], 1e-5f) << hertz << ' ' << i << ' ' << k;
+          const float vector = vectors[k / 3 * width + k % 3 * scratch.taken.size() + i];
+          EXPECT_NEAR(vector, own[k / 3][static_cast<Eigen::Index>(k % 3)], 1e-5f) << hertz << ' ' << i << ' ' << k;
         }
       }
     };
@@ -202,7 +202,7 @@ TEST(Curves, WaysOfAllJointsAreThoseOfEach) {
   }
 }
 
-TEST(Curves, VectorsOfAnyLengthBecomeTheirRotations) {
+TEST(Curves, VectorsOfAnyLengthGiveTheirRotations) {
   std::vector<float> vectors;  // [x y z][joint]
   constexpr std::size_t kCount = 5 * curve_loops::kLanes;
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -220,7 +220,7 @@ TEST(Curves, VectorsOfAnyLengthBecomeTheirRotations) {
   const JointReaches free{std::vector<float>(kCount), std::vector<float>(kCount)};
   curve_loops::make_turns(
       std::array{1.0f},
-      {.ways = vectors.data(), .reaches = free, .middles = middles.data(), .count = kCount, .width = kCount},
+      {.vectors = vectors.data(), .reaches = free, .middles = middles.data(), .count = kCount, .width = kCount},
       turned.data());
   for (std::size_t i = 0; i < kCount; ++i) {
     const Eigen::Quaternionf expected =
@@ -231,13 +231,13 @@ TEST(Curves, VectorsOfAnyLengthBecomeTheirRotations) {
   }
 }
 
-TEST(Kriging, AtABorderIsWhatIsThere) {
+TEST(Kriging, MatchesTheBorders) {
   const JointGroups of = groups();
   std::vector<double> memory;
   for (const FrameRate rate : {FrameRate{1, 1}, FrameRate{24, 1}, FrameRate{120, 1}, FrameRate{2000, 1}}) {
     const Motion motion = lively(1, rate, 900);
     const Gap gap = cut(motion, of, {200, 240});
-    Kriging kriging(gap, GapTime(gap), memory, Kriging::Weights::anew);
+    Kriging kriging(gap, GapTime(gap), memory, Kriging::Weights::solved);
     GapScratch scratch;
     see_joint(gap, kUpper, scratch);
     Sides sides;
@@ -256,8 +256,8 @@ TEST(Kriging, AtABorderIsWhatIsThere) {
   }
 }
 
-TEST(Kriging, GoesTheSameWayAtOtherRates) {
-  // What is captured twice as often is still the same movement.
+TEST(Kriging, IsIndependentOfTheFrameRate) {
+  // Capturing at twice the rate gives the same movement.
   const JointGroups of = groups();
   const auto middle = [&](std::uint32_t hertz) {
     const Motion motion = lively(2, {hertz, 1}, 3 * hertz);
@@ -267,14 +267,14 @@ TEST(Kriging, GoesTheSameWayAtOtherRates) {
   for (const std::uint32_t hertz : {60u, 240u, 2000u}) EXPECT_LT(angle(middle(hertz), middle(120)), 0.04) << hertz;
 }
 
-TEST(Learned, BendsAreNothingAtTheBorders) {
+TEST(Learned, BendsVanishAtTheBorders) {
   for (const double t : {0.0, 1.0}) {
     for (const double bend : bends_at(t)) EXPECT_EQ(bend, 0);
   }
   EXPECT_EQ(bends_at(0.5)[0], 1);
 }
 
-TEST(Learned, BetweenKnotsIsTheLogarithmAndBeyondThemTheNearest) {
+TEST(Learned, InterpolatesLogarithmicallyAndClampsOutsideTheKnots) {
   EXPECT_EQ(between_knots(0.01).part, 0);
   EXPECT_EQ(between_knots(0.01).lower, 0u);
   EXPECT_EQ(between_knots(60).lower, kKnots.size() - 2);
@@ -300,7 +300,7 @@ TEST(BorderVelocity, IsThatOfTheQuadratic) {
     }
   }
   const std::vector<Eigen::Vector3f> many(2000, Eigen::Vector3f::Ones());
-  EXPECT_EQ(BorderVelocity(many.size(), 10000).of(many).norm(), 0) << "no more samples are looked at than it keeps";
+  EXPECT_EQ(BorderVelocity(many.size(), 10000).of(many).norm(), 0) << "no more samples are used than it stores";
 }
 
 }  // namespace

@@ -6,8 +6,8 @@
 
 namespace signweave {
 
-/// From the borders of a gap; what cannot be measured of this body is not known. Velocities are those over kTaskContext
-/// before the left border and after the right one.
+/// Measures the task of a transition from the borders of its gap; values that cannot be measured on this body are
+/// unknown. Velocities are taken over kTaskContext before the left border and after the right one.
 TransitionTask task_of(const Gap& gap, const SignerModel& signer);
 inline constexpr Seconds kTaskContext{0.05};
 

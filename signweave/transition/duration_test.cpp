@@ -9,8 +9,8 @@
 namespace signweave {
 namespace {
 
-TEST(Tasks, AreWhatTheHandsHaveToDo) {
-  // The left arm swings at one speed; the right one is still. Between is a gap of 20 frames that nothing is known of.
+TEST(Tasks, DescribeTheMovementOfTheHands) {
+  // The left arm swings at constant speed; the right one is still. Between is a gap of 20 unknown frames.
   const auto skeleton = whole_person();
   Motion motion(skeleton, {100, 1}, 80);
   const auto arm = static_cast<std::size_t>(*skeleton->find("LeftArm"));
@@ -40,7 +40,7 @@ TEST(Tasks, AreWhatTheHandsHaveToDo) {
   EXPECT_LT(radius, 0.8f);
   EXPECT_NEAR(left.speed_before, radius * 1.0f, 0.01f);  // a radian a second
   EXPECT_NEAR(left.speed_after, radius * 1.0f, 0.01f);
-  EXPECT_NEAR(left.approach, left.speed_before + left.speed_after, 0.05f);  // it leads straight on
+  EXPECT_NEAR(left.approach, left.speed_before + left.speed_after, 0.05f);  // it continues in the same direction
 }
 
 }  // namespace

@@ -7,13 +7,13 @@
 
 namespace signweave {
 
-/// When a made frame is, from 0 at the left border to 1 at the right one.
+/// Relative time of a generated frame, from 0 at the left border to 1 at the right one.
 inline float moment_of(const Gap& gap, std::int64_t frame) noexcept {
   return static_cast<float>(frame + 1) / static_cast<float>(gap.count + 1);
 }
 
-/// 1 at `peak`, 0 at both ends of [0, 1], level at all three: what is added times this leaves pose and velocity of both
-/// borders.
+/// A bump that is 1 at `peak` and 0 at both ends of [0, 1], with zero slope at all three. An offset scaled by it leaves
+/// pose and velocity at both borders unchanged.
 inline float bump(float t, float peak) noexcept {
   const float x = t < peak ? t / peak : (1 - t) / (1 - peak);
   const float clamped = std::clamp(x, 0.0f, 1.0f);

@@ -2,7 +2,7 @@
 
 #include "signweave/transition/method.h"
 
-/// The methods' functions: inside this module only.
+/// The fill functions of the methods. Internal to this module.
 namespace signweave {
 
 void fill_coast(const GapJob& job, MutablePoses out) noexcept;

@@ -1,4 +1,4 @@
-// The baselines that only the evaluation offers.
+// Tests of the baselines, which only the evaluation offers.
 
 #include <gtest/gtest.h>
 
@@ -13,9 +13,9 @@ namespace {
 
 constexpr std::size_t kJoints = 2;
 
-/// A root that moves and turns as told, and a joint that turns.
-template <class Place, class Turn>
-Motion arm_motion(std::int64_t frames, Place place, Turn turn) {
+/// A root that moves and rotates by given functions, and a rotating joint.
+template <class PositionAt, class Turn>
+Motion arm_motion(std::int64_t frames, PositionAt place, Turn turn) {
   const auto skeleton = std::make_shared<const Skeleton>(
       std::vector<Joint>{{"Hips", kNoJoint, {0, 1, 0}, true}, {"Arm", 0, {0.3f, 0, 0}, false}}, std::vector<Tip>{});
   Motion motion(skeleton, {100, 1}, frames);
@@ -65,7 +65,7 @@ float small_angle(const Eigen::Quaternionf& a, const Eigen::Quaternionf& b) {
   return 2 * std::asin(std::min(1.0f, (a.conjugate() * b).vec().norm()));
 }
 
-TEST(Baselines, BothAreExactWhereAllGoesOnAtOneSpeed) {
+TEST(Baselines, BothAreExactAtConstantSpeed) {
   const Motion motion = arm_motion(
       100, [](float f) { return 0.01f * f; }, [](float f) { return 0.02f * f; });
   for (const char* const name : {"crossfade", "recipe"}) {
@@ -78,8 +78,8 @@ TEST(Baselines, BothAreExactWhereAllGoesOnAtOneSpeed) {
   }
 }
 
-TEST(Baselines, ACrossFadeGoesOnAsEachSideCameAndNoFartherThanIsKnown) {
-  // Before: moving; after: still at 1. In the first frames the first side leads, in the last ones the second.
+TEST(Baselines, ACrossFadeContinuesEachSideAsFarAsItIsKnown) {
+  // Before: moving; after: still at 1. The first side dominates in the first frames, the second in the last ones.
   const Motion motion = arm_motion(
       200, [](float f) { return f <= 60 ? 0.01f * f : 1.0f; }, [](float) { return 0.0f; });
   const FilledArm filled = fill_arm("crossfade", motion, {60, 120});
@@ -91,25 +91,26 @@ TEST(Baselines, ACrossFadeGoesOnAsEachSideCameAndNoFartherThanIsKnown) {
   }
 }
 
-TEST(Baselines, TheRecipeCutsWherePosesAreMostAlike) {
-  // The arm goes up by 0.9 and comes down by 0.6 again, so that the frames nearest to each other are 30 frames before
-  // the left border (0.6 up) and the right border (0.3 up).
+TEST(Baselines, TheRecipeCutsAtTheMostSimilarPoses) {
+  // The arm goes up by 0.9 and down again by 0.6, so that the most similar frames are 30 frames before the left border
+  // (0.6 up) and the right border (0.3 up).
   const auto turn = [](float f) { return f < 90 ? 0.01f * f : 0.9f - 0.02f * (f - 90); };
   const Motion motion = arm_motion(
       200, [](float) { return 0.0f; }, turn);
   const FilledArm filled = fill_arm("recipe", motion, {90, 120});
-  // From 0.59 (30 frames before frame 89) to 0.3 (frame 120) in 61 steps; the filter changes no straight line inside.
+  // From 0.59 (30 frames before frame 89) to 0.3 (frame 120) in 61 steps; the filter does not change the inside of a
+  // straight line.
   for (std::size_t i = 1; i + 1 < 30; ++i) {
     const float wanted = 0.59f + (0.3f - 0.59f) * static_cast<float>(31 + i) / 61;
     EXPECT_NEAR(small_angle(Eigen::Quaternionf::Identity(), filled.arm(i)), wanted, 2e-3f) << i;
   }
-  // The first made frame is the mean of the border, itself and the next.
+  // The first generated frame is the mean of the border, itself and the next.
   const float second = 0.59f + (0.3f - 0.59f) * 32.0f / 61;
   const float first = 0.59f + (0.3f - 0.59f) * 31.0f / 61;
   EXPECT_NEAR(small_angle(Eigen::Quaternionf::Identity(), filled.arm(0)), (0.89f + first + second) / 3, 2e-3f);
 }
 
-TEST(Baselines, GroupsThatAreNotAskedForStayAsTheyAre) {
+TEST(Baselines, OtherGroupsAreUnchanged) {
   const Motion motion = arm_motion(
       100, [](float f) { return 0.01f * f; }, [](float f) { return 0.02f * f; });
   for (const char* const name : {"crossfade", "recipe"}) {
@@ -122,7 +123,7 @@ TEST(Baselines, GroupsThatAreNotAskedForStayAsTheyAre) {
   }
 }
 
-TEST(Baselines, QuaternionsGoOnInTheLeftBordersHemisphere) {
+TEST(Baselines, QuaternionsContinueInTheLeftBordersHemisphere) {
   Motion motion = arm_motion(
       100, [](float f) { return 0.01f * f; }, [](float f) { return 0.02f * f; });
   for (std::int64_t frame = 50; frame < 100; ++frame) motion.pose(frame).rotations[1].coeffs() *= -1;

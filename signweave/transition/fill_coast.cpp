@@ -1,6 +1,6 @@
-// Each side goes on as it moved and comes to rest within kEase; the two are cross-faded over the whole gap with a
-// weight that is flat at both ends. So position and velocity go on at both borders, and however long the gap, nothing
-// swings out farther than half of what kEase of that movement is. (ours)
+// Each side continues its movement and comes to rest within kEase; the two are cross-faded over the whole gap with a
+// weight that is flat at both ends. So position and velocity are continuous at both borders, and regardless of the
+// gap's length, overshoot is at most half of the movement's distance in kEase. (ours)
 
 #include <algorithm>
 #include <cmath>
@@ -12,12 +12,12 @@
 namespace signweave {
 namespace {
 
-/// How long a border's movement takes to come to rest.
+/// Time in which a border's movement comes to rest.
 constexpr Seconds kEase{0.15};
-/// Over which a border's velocity is taken: long enough to tell it from noise.
+/// Time over which a border's velocity is measured: long enough to distinguish it from noise.
 constexpr Seconds kVelocityContext{0.1};
 
-/// The rotation per frame at a border, as a rotation vector in the joint's own space, no longer than `most` radians.
+/// The rotation per frame at a border, as a rotation vector in the joint's own space, limited to `most` radians.
 Eigen::Vector3f velocity(const Eigen::Quaternionf& earlier, const Eigen::Quaternionf& later, std::int64_t span,
                          float most) noexcept {
   Eigen::Quaternionf step = earlier.conjugate() * later;
@@ -25,7 +25,7 @@ Eigen::Vector3f velocity(const Eigen::Quaternionf& earlier, const Eigen::Quatern
   const float sine = step.vec().norm();
   if (sine < 1e-7f) return Eigen::Vector3f::Zero();
   const float square = sine * sine;
-  // Mostly it is a small angle, for which the series of the arc sine is exact to 2e-6.
+  // Usually the angle is small; then the series of the arcsine is accurate to 2e-6.
   const float half = sine < 0.3f
                          ? sine * (1.0f + square * (1.0f / 6.0f + square * (3.0f / 40.0f + square * (15.0f / 336.0f))))
                          : std::atan2(sine, step.w());
@@ -33,26 +33,25 @@ Eigen::Vector3f velocity(const Eigen::Quaternionf& earlier, const Eigen::Quatern
   return step.vec() * (speed / sine);
 }
 
-/// How far something has gone `frames` after it moved at 1 a frame, if it slows down evenly to rest within `ease`
-/// frames.
+/// Distance covered `frames` after moving at speed 1 per frame, with uniform deceleration to rest within `ease` frames.
 float coasted(double frames, double ease) noexcept {
   return static_cast<float>(frames >= ease ? ease / 2.0 : frames - frames * frames / (2.0 * ease));
 }
 
-/// Rises from above 0 to below 1, slow at both ends.
+/// Rises smoothly from above 0 to below 1.
 float weight_of(std::int64_t index, std::int64_t count) noexcept {
   const float t = static_cast<float>(index + 1) / static_cast<float>(count + 1);
   return t * t * (3.0f - 2.0f * t);
 }
 
-/// Two poses of one side: at the border, and so many frames away from it.
+/// Two poses of one side: at the border, and `span` frames away from it.
 struct Edge {
   PoseView border;
   PoseView context;
-  std::int64_t span = 0;  ///< 0: no context, the border counts as still
+  std::int64_t span = 0;  ///< 0: no context, the border is treated as still
 };
 
-/// The joints that are filled, in the order of a pose; where all are, nothing need be gathered.
+/// The joints to fill, in the order of a pose; if all are filled, no gathering is needed.
 class Chosen {
  public:
   explicit Chosen(const GapJob& job) : groups_(job.groups), of_(job.gap.groups->of) {}
@@ -68,8 +67,8 @@ void fill_translations(const GapJob& job, const Edge& from, const Edge& to, doub
   const std::size_t moved = from.border.translations.size();
   for (std::size_t i = 0; i < moved; ++i) {
     if (!job.groups.has(job.gap.groups->of_translation[i])) continue;
-    const auto per_frame = [](const Eigen::Vector3f& way, std::int64_t span) -> Eigen::Vector3f {
-      return span > 0 ? Eigen::Vector3f(way / static_cast<float>(span)) : Eigen::Vector3f::Zero();
+    const auto per_frame = [](const Eigen::Vector3f& difference, std::int64_t span) -> Eigen::Vector3f {
+      return span > 0 ? Eigen::Vector3f(difference / static_cast<float>(span)) : Eigen::Vector3f::Zero();
     };
     const Eigen::Vector3f& left = from.border.translations[i];
     const Eigen::Vector3f& right = to.border.translations[i];
@@ -94,12 +93,12 @@ void fill_coast(const GapJob& job, MutablePoses out) noexcept {
   const Edge from{gap.left(), gap.before.pose(gap.before.frames - 1 - before), before};
   const Edge to{gap.right(), gap.after.pose(after), after};
   const double ease = std::max(1.0, std::min(kEase.count() * hertz, static_cast<double>(gap.count + 1)));
-  // A joint that would turn farther than half a turn until it rests is no human one.
+  // No human joint turns more than half a turn before it rests.
   const float most = std::numbers::pi_v<float> / (static_cast<float>(ease) / 2.0f);
 
   const Chosen chosen(job);
   const std::size_t joints = from.border.rotations.size();
-  std::vector<Eigen::Quaternionf>& rotations = job.scratch.turns;  // the left border's, then the right's
+  std::vector<Eigen::Quaternionf>& rotations = job.scratch.turns;  // of the left border, then of the right one
   std::vector<Eigen::Vector3f>& turns = job.scratch.coefficients;
   rotations.resize(3 * joints);
   turns.resize(2 * joints);
@@ -108,7 +107,7 @@ void fill_coast(const GapJob& job, MutablePoses out) noexcept {
     if (!chosen.has(i)) continue;
     const Eigen::Quaternionf& left = from.border.rotations[i];
     Eigen::Quaternionf right = to.border.rotations[i];
-    // Chosen at the borders, so that it is the same for every frame.
+    // Chosen at the borders, so that the sign is the same for every frame.
     if (left.dot(right) < 0) right.coeffs() *= -1.0f;
     rotations[count] = left;
     rotations[joints + count] = right;

@@ -18,7 +18,7 @@ std::shared_ptr<const Skeleton> skeleton() {
                                           std::vector<Tip>{});
 }
 
-/// A motion in which every joint turns all the time, in its own way for each `seed`.
+/// A motion in which every joint rotates continuously, differently for each `seed`.
 Motion moving(std::int64_t frames, float seed) {
   Motion motion(skeleton(), {100, 1}, frames);
   for (std::int64_t frame = 0; frame < frames; ++frame) {
@@ -43,7 +43,7 @@ JointGroups arm_groups() {
   return groups;
 }
 
-/// The frames of `a`, a gap that is made, the frames of `b`. Where groups are given one by one they are filled so.
+/// The frames of `a`, a filled gap, the frames of `b`. The groups in `parts` are filled one after the other.
 Motion with_gap(const Motion& a, const Motion& b, std::int64_t count, const std::vector<GroupSet>& parts) {
   Motion all(a.shared_skeleton(), a.rate(), a.frame_count() + count + b.frame_count());
   const auto copy = [&](const Motion& from, std::int64_t at) {
@@ -80,8 +80,8 @@ TEST(Coasting, ContinuesPositionAndVelocityAtBothBorders) {
         return angle(all.pose(frame).rotations[joint], all.pose(frame + 1).rotations[joint]);
       };
       for (const std::int64_t border : {std::int64_t{39}, std::int64_t{39 + gap}}) {
-        // Across the border the speed changes no more than the first frame's share of the cross-fade explains, and what
-        // it changed within a tenth of a second.
+        // The change of speed across the border is limited by the first frame's share of the cross-fade and by the
+        // change within a tenth of a second.
         EXPECT_NEAR(speed(border - 1), speed(border), 0.003 + 8.0 / std::pow(static_cast<double>(gap + 1), 2))
             << "joint " << joint << " at " << border;
       }
@@ -104,7 +104,7 @@ TEST(Coasting, StaysBetweenStillBorders) {
   }
 }
 
-TEST(Coasting, PartByPartGivesTheSameAsAllAtOnce) {
+TEST(Coasting, FillingByPartsEqualsFillingAllAtOnce) {
   const Motion a = moving(40, 0.3f);
   const Motion b = moving(40, 1.7f);
   const Motion whole = with_gap(a, b, 33, {GroupSet::all()});

@@ -6,21 +6,20 @@
 namespace signweave {
 namespace {
 
-/// How far beyond a border so many frames are: as many as the side has, then it stands still.
+/// Frames by which a side continues beyond its border: limited by the frames that the side has, then it stands still.
 std::int64_t reached(std::int64_t frames, const PosesView& side) noexcept {
   return std::min(frames, side.frames - 1);
 }
 
-/// A rotation reflected in a border's: as much beyond it as it was before it. Velocity goes on.
+/// A rotation reflected at the border's: as far beyond it as it was before it, so velocity is continuous.
 Eigen::Quaternionf beyond(const Eigen::Quaternionf& border, const Eigen::Quaternionf& inside) noexcept {
   return (border * (inside.conjugate() * border)).normalized();
 }
 
 }  // namespace
 
-/// What Performs does with two animations, with what there is here: each side goes on past its border, the first
-/// fades out while the other fades in, at one speed. Nothing is known of either side past its border, so it goes on as
-/// it came, reflected in the border (ours).
+/// What Performs does with two animations, adapted: each side continues past its border, and the first fades out while
+/// the other fades in, linearly. Frames past the borders are unknown, so each side is reflected at its border (ours).
 void fill_crossfade(const GapJob& job, MutablePoses out) noexcept {
   const Gap& gap = job.gap;
   const PoseView a = gap.left();

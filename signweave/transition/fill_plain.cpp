@@ -7,14 +7,14 @@
 namespace signweave {
 namespace {
 
-/// From border to border along the shortest arc, as far as `way` says for each moment in (0, 1).
-template <class Way>
+/// From border to border along the shortest arc; `interpolate` gives the fraction at each time in (0, 1).
+template <class Interpolation>
 struct Between {
-  Way way;
+  Interpolation interpolate;
 
   std::size_t terms() const noexcept { return 2; }
   void row(double t, std::int64_t, float* out) const noexcept {
-    out[1] = static_cast<float>(way(t));
+    out[1] = static_cast<float>(interpolate(t));
     out[0] = 1.0f - out[1];
   }
   void coefficients(const Sides& sides, Eigen::Vector3f* out) const noexcept {
@@ -23,9 +23,9 @@ struct Between {
   }
 };
 
-template <class Way>
-void fill_between(const GapJob& job, MutablePoses out, Way way) noexcept {
-  fill_curves(job, out, Between<Way>{way}, GapTime::even(job.gap));
+template <class Interpolation>
+void fill_between(const GapJob& job, MutablePoses out, Interpolation interpolate) noexcept {
+  fill_curves(job, out, Between<Interpolation>{interpolate}, GapTime::even(job.gap));
 }
 
 }  // namespace

@@ -7,7 +7,7 @@
 namespace signweave {
 namespace {
 
-/// How unlike two poses are: squared half angles of all joints, and squared metres.
+/// Dissimilarity of two poses: squared half angles of all joints plus squared metres.
 float distance(PoseView a, PoseView b) noexcept {
   float sum = 0;
   for (std::size_t joint = 0; joint < a.rotations.size(); ++joint) {
@@ -17,7 +17,7 @@ float distance(PoseView a, PoseView b) noexcept {
   return sum;
 }
 
-/// Frames that are left away on either side.
+/// Numbers of frames dropped on either side.
 struct Cut {
   std::int64_t before = 0;
   std::int64_t after = 0;
@@ -38,7 +38,7 @@ Cut best_cut(const Gap& gap) noexcept {
   return best;
 }
 
-/// The mean of three neighbours: what a filter of Savitzky and Golay with a window of 3 and order 1 does.
+/// The mean of three neighbours, which is a Savitzky–Golay filter with a window of 3 and order 1.
 template <class Value, class Mean>
 void smooth(Value before, Value after, std::int64_t count, std::size_t stride, Value* values, Mean mean) noexcept {
   for (std::int64_t frame = 0; frame < count; ++frame) {
@@ -60,10 +60,10 @@ Eigen::Quaternionf mean_turn(const Eigen::Quaternionf& a, const Eigen::Quaternio
 
 }  // namespace
 
-/// What spoken-to-signed-translation does where two clips meet: the pair of frames within 0.3 s of the borders at which
-/// the poses are most alike is where the clips are cut; what is between is linear (0.2 s there; here as long as the gap
-/// and what was cut away), and smoothed (Savitzky–Golay, window 3, order 1). Only the gap is written, so the frames
-/// that it would cut away on either side stay as captured.
+/// What spoken-to-signed-translation does between two clips: they are cut at the pair of frames within 0.3 s of the
+/// borders with the most similar poses; the frames between are interpolated linearly (0.2 s there; here the gap plus
+/// the frames cut away) and smoothed (Savitzky–Golay, window 3, order 1). Only the gap is written, so the frames that
+/// would be cut away on either side stay as captured.
 void fill_recipe(const GapJob& job, MutablePoses out) noexcept {
   const Gap& gap = job.gap;
   const Cut cut = best_cut(gap);
@@ -74,12 +74,13 @@ void fill_recipe(const GapJob& job, MutablePoses out) noexcept {
   const std::size_t joints = a.rotations.size();
   const std::size_t moved = a.translations.size();
   const auto whole = static_cast<float>(gap.count + 1 + cut.before + cut.after);
-  const auto way = [&](std::int64_t frame) { return static_cast<float>(cut.before + frame + 1) / whole; };
+  const auto share = [&](std::int64_t frame) { return static_cast<float>(cut.before + frame + 1) / whole; };
   for (std::size_t joint = 0; joint < joints; ++joint) {
     if (!job.groups.has(gap.groups->of[joint])) continue;
     Eigen::Quaternionf* values = &out.rotations[joint];
     for (std::int64_t frame = 0; frame < gap.count; ++frame) {
-      values[static_cast<std::size_t>(frame) * joints] = slerp(from.rotations[joint], to.rotations[joint], way(frame));
+      values[static_cast<std::size_t>(frame) * joints] =
+          slerp(from.rotations[joint], to.rotations[joint], share(frame));
     }
     smooth(a.rotations[joint], b.rotations[joint], gap.count, joints, values, mean_turn);
     Eigen::Quaternionf last = a.rotations[joint];
@@ -94,7 +95,7 @@ void fill_recipe(const GapJob& job, MutablePoses out) noexcept {
     Eigen::Vector3f* values = &out.translations[i];
     for (std::int64_t frame = 0; frame < gap.count; ++frame) {
       values[static_cast<std::size_t>(frame) * moved] =
-          from.translations[i] + way(frame) * (to.translations[i] - from.translations[i]);
+          from.translations[i] + share(frame) * (to.translations[i] - from.translations[i]);
     }
     smooth(a.translations[i], b.translations[i], gap.count, moved, values,
            [](const Eigen::Vector3f& x, const Eigen::Vector3f& y, const Eigen::Vector3f& z) {

@@ -9,10 +9,10 @@ namespace signweave {
 namespace {
 
 constexpr std::size_t kNeighbours = 12;
-/// A captured span is not stretched or squeezed more than this.
-constexpr float kMostStretch = 1.5f;
+/// A captured span is stretched or compressed in time by at most this factor.
+constexpr float kMostTimeScale = 1.5f;
 
-/// How much a joint counts in comparing: what leads the hands through space.
+/// Weight of a joint in comparisons, by its influence on the hands' positions.
 float weight_of(JointRole role) noexcept {
   switch (role) {
     case JointRole::trunk:
@@ -28,7 +28,7 @@ float weight_of(JointRole role) noexcept {
   return 0.0f;
 }
 
-/// The captured spans that are most like a gap, and how much each counts.
+/// The captured spans most similar to a gap, with their weights.
 struct Matches {
   struct Match {
     const CapturedSpan* span = nullptr;
@@ -65,8 +65,8 @@ Matches matches_of(const GapJob& job) {
   });
   for (std::size_t index = 0; index < library->spans.size(); ++index) {
     const CapturedSpan& span = library->spans[index];
-    if (span.recording == job.model.purged || span.seconds > kMostStretch * seconds ||
-        seconds > kMostStretch * span.seconds) {
+    if (span.recording == job.model.purged || span.seconds > kMostTimeScale * seconds ||
+        seconds > kMostTimeScale * span.seconds) {
       continue;
     }
     float square = 0;
@@ -87,15 +87,16 @@ Matches matches_of(const GapJob& job) {
     matches.spans[i] = {&library->spans[scratch.nearest[i].second], 1.0f / (relative + 0.05f)};
     sum += matches.spans[i].weight;
   }
-  // What is unlike bends the way less: where even the nearest differs as much as the gap is big, by half. (ours)
+  // Dissimilar spans bend the trajectory less: if even the nearest differs by as much as the gap's size, by half.
+  // (ours)
   const float nearest = matches.count > 0 ? std::sqrt(scratch.nearest[0].first / std::max(size, 1e-6f)) : 0.0f;
   const float trust = 1.0f / (1.0f + nearest * nearest);
   for (std::size_t i = 0; i < matches.count; ++i) matches.spans[i].weight *= trust / sum;
   return matches;
 }
 
-/// The kriged way, bent as the captured spans bend from theirs that begin and end most alike: so each of them is warped
-/// to the borders, with its velocities, too.
+/// The kriged trajectory plus the deviations of the captured spans with the most similar borders from their own kriged
+/// trajectories. So each span is warped to the borders, including its velocities.
 template <class Kriged>
 struct Recorded {
   static constexpr bool kBeyondSides = true;
@@ -107,7 +108,7 @@ struct Recorded {
   std::size_t terms() const noexcept { return kriging.terms() + CapturedSpan::kPoints; }
   void row(double t, std::int64_t frame, float* out) const noexcept {
     kriging.row(t, frame, out);
-    // A cubic between each two points (Catmull and Rom), with nothing at the borders and level there: velocities go on.
+    // A Catmull–Rom cubic between each two points, zero with zero slope at the borders, so velocities are continuous.
     constexpr std::size_t kSteps = CapturedSpan::kPoints + 1;
     const double at = static_cast<double>(frame + 1) * kSteps / static_cast<double>(count + 1);
     const std::size_t node = std::min(static_cast<std::size_t>(at), kSteps - 1);  // 0 and kSteps are the borders
@@ -144,8 +145,8 @@ struct Recorded {
       }
     }
   }
-  /// How much of a captured joint's strays this one takes: as much as it does of what the captured one did, at most
-  /// all. One that rests in a body that moves stays at rest. (ours)
+  /// The share of a captured joint's deviations that this joint takes: the ratio of its features to the captured ones,
+  /// at most 1. So a resting joint of a moving body stays at rest. (ours)
   float share_of(std::span<const float> captured, std::size_t joint) const noexcept {
     const auto size = [joint](std::span<const float> all) {
       float square = 0;

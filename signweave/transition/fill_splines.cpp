@@ -7,7 +7,7 @@
 namespace signweave {
 namespace {
 
-/// A cubic that has place and velocity at both borders (Hermite). The velocities are damped as the model says.
+/// A cubic with given position and velocity at both borders (Hermite). The velocities are damped by the model.
 struct Hermite {
   const TransitionModel& model;
 
@@ -30,7 +30,7 @@ struct Hermite {
   }
 };
 
-/// A polynomial of degree five that has place, velocity and acceleration at both borders.
+/// A polynomial of degree five with given position, velocity and acceleration at both borders.
 struct Quintic {
   const TransitionModel& model;
 
@@ -62,12 +62,12 @@ struct Quintic {
   }
 };
 
-/// The right side is played backwards into the gap, coming from rest; what the left border is off from it fades out
-/// from place and velocity there (after Bollo, Inertialization, GDC 2018: a quintic that ends at rest).
+/// The right side is extrapolated backwards into the gap, starting from rest; the left border's offset from it fades
+/// out with its position and velocity (after Bollo, Inertialization, GDC 2018: a quintic that ends at rest).
 struct Inertialize {
   double seconds;
 
-  static constexpr double kRun = 0.15;  ///< seconds in which the right side comes from rest. (ours)
+  static constexpr double kRun = 0.15;  ///< seconds in which the right side starts from rest. (ours)
 
   std::size_t terms() const noexcept { return 4; }
   void row(double t, std::int64_t, float* out) const noexcept {
@@ -77,12 +77,12 @@ struct Inertialize {
     const double place = 1 - (10 * t3 - 15 * t4 + 6 * t5);
     const double speed = t - 6 * t3 + 8 * t4 - 3 * t5;
     const double run = std::min(kRun, seconds);
-    const double left = (1 - t) * seconds;  // until the right border
-    const double way = left >= run ? run / 2 : left - left * left / (2 * run);
+    const double left = (1 - t) * seconds;  // time until the right border
+    const double distance = left >= run ? run / 2 : left - left * left / (2 * run);
     out[0] = static_cast<float>(place);
     out[1] = static_cast<float>(speed);
     out[2] = 1.0f;
-    out[3] = static_cast<float>(-way);
+    out[3] = static_cast<float>(-distance);
   }
   void coefficients(const Sides& sides, Eigen::Vector3f* out) const noexcept {
     const double run = std::min(kRun, seconds);
@@ -90,7 +90,7 @@ struct Inertialize {
     out[2] = sides.right();
     out[3] = speed;
     const Eigen::Vector3f start = sides.right() - static_cast<float>(run / 2) * speed;
-    // Where the run fills the whole gap the target moves at the left border too, but at rest there: its speed is 0.
+    // If the run fills the whole gap, the target starts moving at the left border, with speed 0 there.
     out[0] = sides.left() - start;
     out[1] = static_cast<float>(seconds) * motion_before(sides.before, sides.hertz).velocity;
   }

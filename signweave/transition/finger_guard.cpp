@@ -12,19 +12,19 @@ namespace {
 
 using Eigen::Vector3f;
 
-/// A hinge turns no farther in one round. Radians.
+/// Maximum rotation of a hinge in one round. Radians.
 constexpr float kMostTurn = 0.25f;
-/// How gladly a finger goes aside, where 1 is how gladly it bends.
+/// Preference for moving a finger sideways, relative to bending it.
 constexpr float kAside = 0.5f;
 
-/// Two fingers that move so far past each other between two frames may have gone through each other. As thin as they
-/// are, one that goes less far is deeper by less than a millimetre in between. Metres.
+/// Two fingers that move at least this far past each other between two frames may have passed through each other. With
+/// less motion, they are deeper by less than a millimetre in between. Metres.
 constexpr float kPassed = 0.012f;
 
-/// Two fingers lie on the same sides of each other in two frames where the ways out of each other are so much alike.
+/// Two fingers are on the same sides of each other in two frames if their exit directions have at least this cosine.
 constexpr float kSameSide = 0.9f;
 
-/// The bend is greatest no nearer to a border than this share of the gap.
+/// The peak of a bend keeps at least this share of the gap as distance from the borders.
 constexpr float kNearestPeak = 0.2f;
 
 }  // namespace
@@ -62,15 +62,15 @@ void FingerGuard::read(PoseView pose) {
   phalanges_of(points_, radii_, phalanges_);
 }
 
-/// Turns about the hinges of one finger so that it goes some way where it is touched, the least turns that do.
-void FingerGuard::lead_out(const FingerCrossing::One& one, const Vector3f& way, const HandAxes& axes,
+/// Adds the smallest rotations about the hinges of one finger that displace its contact point by `direction`.
+void FingerGuard::lead_out(const FingerCrossing::One& one, const Vector3f& direction, const HandAxes& axes,
                            Correction& correction) const {
   const std::array<JointIndex, 2>& joints = joints_[static_cast<std::size_t>(one.finger)];
-  const float length = way.norm();
-  const Vector3f out = way / length;
+  const float length = direction.norm();
+  const Vector3f out = direction / length;
   const std::size_t first = correction.count;
   std::array<float, 3> gains;   // metres along `out` for each radian
-  std::array<float, 3> gladly;  // how gladly it turns
+  std::array<float, 3> gladly;  // preference for rotating it
   float sum = 1e-6f;
   const auto add = [&](JointIndex joint, const Vector3f& axis, float weight) {
     if (joint == kNoJoint) return;
@@ -81,7 +81,7 @@ void FingerGuard::lead_out(const FingerCrossing::One& one, const Vector3f& way, 
     sum += weight * gains[i] * gains[i];
     correction.hinges[correction.count++] = {joint, pose_.rotations[parent].conjugate() * axis, 0};
   };
-  if (one.finger == Finger::thumb) {  // its first joint turns every way
+  if (one.finger == Finger::thumb) {  // its first joint rotates about all axes
     if (joints[0] == kNoJoint) return;
     const Vector3f axis = (one.at - pose_.positions[static_cast<std::size_t>(joints[0])]).cross(out);
     if (axis.norm() > 1e-4f) add(joints[0], axis.normalized(), 1);
@@ -95,16 +95,16 @@ void FingerGuard::lead_out(const FingerCrossing::One& one, const Vector3f& way, 
   }
 }
 
-/// From pose_ and points_ of the crossing's frame.
-FingerGuard::Correction FingerGuard::way_out(const FingerCrossing& crossing, Way by) {
+/// Requires pose_ and points_ of the crossing's frame.
+FingerGuard::Correction FingerGuard::correction_for(const FingerCrossing& crossing, Exit by) {
   const HandAxes axes = axes_of(points_, side_);
   Vector3f away = crossing.away.isZero() ? axes.palm : crossing.away;
-  if (by != Way::nearest) {
+  if (by != Exit::nearest) {
     Vector3f& first = away_[crossing.pair];
-    if (first.isZero()) first = by == Way::first ? away : Vector3f(-away);
+    if (first.isZero()) first = by == Exit::first ? away : Vector3f(-away);
     if (away.dot(first) < 0) away = first;
   }
-  // A little farther than needed, or the rounds would only come near.
+  // Slightly more than needed; otherwise the rounds would only approach the goal.
   const Vector3f half = 0.5f * (crossing.beyond + 0.5f * kFingerDepthAllowed) * away;
   Correction correction;
   lead_out(crossing.a, half, axes, correction);
@@ -116,7 +116,7 @@ MutablePoseView FingerGuard::pose_of(std::int64_t frame) const noexcept {
   return pose_at(*skeleton_, made_, frame);
 }
 
-/// Bends the fingers of one frame, ever less towards both borders.
+/// Applies a correction to one frame, fading towards both borders.
 void FingerGuard::apply(const Correction& correction, std::int64_t frame) const {
   const MutablePoseView pose = pose_of(frame);
   const float share = bump(moment_of(*gap_, frame), correction.peak);
@@ -127,7 +127,7 @@ void FingerGuard::apply(const Correction& correction, std::int64_t frame) const 
   }
 }
 
-/// Of a frame that was made.
+/// The knot of a generated frame.
 FingerGuard::Knot FingerGuard::knot_at(std::int64_t frame) {
   Knot knot{.frame = frame, .as_made = kept_.size()};
   const MutablePoseView pose = pose_of(frame);
@@ -161,8 +161,8 @@ bool FingerGuard::may_hide(const Knot& a, const Knot& b) const {
     const Vector3f tip = b.fingers[i].tip - a.fingers[i].tip;
     const Vector3f joint = b.fingers[i].joint - a.fingers[i].joint;
     for (std::size_t k = i + 1; k < kFingers.size(); ++k, ++pair) {
-      const Beside& before = a.pairs[pair];
-      const Beside& after = b.pairs[pair];
+      const PairState& before = a.pairs[pair];
+      const PairState& after = b.pairs[pair];
       if (before.away.dot(after.away) > kSameSide) continue;
       const float moved = std::sqrt(std::max((tip - (b.fingers[k].tip - a.fingers[k].tip)).squaredNorm(),
                                              (joint - (b.fingers[k].joint - a.fingers[k].joint)).squaredNorm()));
@@ -179,8 +179,8 @@ bool FingerGuard::refine() {
       [this](const Knot& a, const Knot& b) { return may_hide(a, b); });
 }
 
-/// Finds corrections, and applies them to the knots. `least` is how deep the worst of them was, and is then.
-bool FingerGuard::lead_out(Way by, float& least) {
+/// Finds corrections and applies them to the knots. `least` is the smallest excess depth so far, and is updated.
+bool FingerGuard::lead_out(Exit by, float& least) {
   away_.fill(Vector3f::Zero());
   std::size_t best = corrections_.size();
   bool first = true;
@@ -204,8 +204,8 @@ bool FingerGuard::lead_out(Way by, float& least) {
     }
     if (round++ == kRounds) break;
     read(pose_of(worst->frame));
-    corrections_.push_back(way_out(*worst->crossing, by));
-    // Not so near a border that fingers would snap there.
+    corrections_.push_back(correction_for(*worst->crossing, by));
+    // Away from the borders, so that fingers do not snap there.
     corrections_.back().peak = std::clamp(moment_of(*gap_, worst->frame), kNearestPeak, 1 - kNearestPeak);
     for (std::size_t i = 1; i + 1 < knots_.size(); ++i) {
       apply(corrections_.back(), knots_[i].frame);
@@ -225,7 +225,7 @@ bool FingerGuard::lead_out(Way by, float& least) {
   return least > 0;
 }
 
-bool FingerGuard::mend(const Gap& gap, MutablePoses made) {
+bool FingerGuard::repair(const Gap& gap, MutablePoses made) {
   gap_ = &gap;
   made_ = made;
   const auto frames = static_cast<std::size_t>(gap.count + 2);
@@ -249,7 +249,7 @@ bool FingerGuard::mend(const Gap& gap, MutablePoses made) {
   }
   refine();
   float least = 0;
-  for (const Way by : {Way::nearest, Way::first, Way::other}) {
+  for (const Exit by : {Exit::nearest, Exit::first, Exit::other}) {
     if (!lead_out(by, least)) break;
   }
   if (corrections_.empty()) return false;

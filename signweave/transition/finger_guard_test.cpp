@@ -30,7 +30,7 @@ struct Hands {
   float degrees(int from, int to) {
     return kDegree * static_cast<float>(from + static_cast<int>(random() % static_cast<unsigned>(to - from)));
   }
-  /// Any handshape that a hand can have: none with fingers in each other.
+  /// An arbitrary possible handshape, without fingers inside each other.
   Motion held() {
     for (;;) {
       Motion motion = bent_anyhow();
@@ -78,13 +78,13 @@ struct Hands {
     HandPlaces(rig, Side::left).read(to_model_space(*skeleton, pose), points);
     return points;
   }
-  /// Of each pair of fingers, measured without the guard.
+  /// The depth of each pair of fingers, measured without the guard.
   FingerDepths depths(PoseView pose) const {
     Phalanges phalanges;
     phalanges_of(points(pose), finger_radii(points(pose)), phalanges);
     return finger_depths(finger_pairs(phalanges));
   }
-  /// By how much some pair is deeper in a frame than at both borders, at most; metres.
+  /// The largest excess of a pair's depth in a frame over both borders, metres.
   float beyond(const Gap& gap, const Motion& motion) const {
     const FingerDepths left = depths(gap.left());
     const FingerDepths right = depths(gap.right());
@@ -97,7 +97,7 @@ struct Hands {
   }
 };
 
-TEST(FingerGuard, FewCrossingsStayAndNoneGetsDeeper) {
+TEST(FingerGuard, FewCrossingsRemainAndNoneGetsDeeper) {
   Hands hands;
   FingerGuard guard(*hands.skeleton, hands.rig, Side::left);
   ASSERT_TRUE(guard.known());
@@ -108,9 +108,9 @@ TEST(FingerGuard, FewCrossingsStayAndNoneGetsDeeper) {
     Motion made = hands.made(gap);
     const Motion unguarded = made;
     const float before = hands.beyond(gap, unguarded);
-    const bool bent = guard.mend(gap, made.poses({0, gap.count}));
+    const bool bent = guard.repair(gap, made.poses({0, gap.count}));
     const float after = hands.beyond(gap, made);
-    // Of frames that are not examined one may be a little deeper.
+    // Frames that are not examined may be slightly deeper.
     EXPECT_LE(after, std::max(before, kFingerDepthAllowed) + 0.0015f) << attempt;
     if (bent) EXPECT_GT(before, kFingerDepthAllowed) << attempt;
     if (before > kFingerDepthAllowed + 0.0015f) EXPECT_TRUE(bent) << attempt;
@@ -119,8 +119,8 @@ TEST(FingerGuard, FewCrossingsStayAndNoneGetsDeeper) {
     if (!bent) {
       EXPECT_EQ(std::memcmp(made.rotations().data(), unguarded.rotations().data(), made.rotations().size_bytes()), 0);
     }
-    // Nothing but fingers of this hand is touched; the first and the last frame are nearly as they were, so that
-    // velocity goes on.
+    // Only fingers of this hand are changed; the first and the last frame are nearly unchanged, so velocity is
+    // continuous.
     for (std::size_t joint = 0; joint < hands.skeleton->joint_count(); ++joint) {
       for (const std::int64_t frame : {std::int64_t{0}, gap.count / 2, gap.count - 1}) {
         const Eigen::Quaternionf& is = made.pose(frame).rotations[joint];
@@ -143,14 +143,14 @@ TEST(FingerGuard, TheSecondGapAllocatesNothing) {
     const Gap gap = hands.gap(30);
     Motion made = hands.made(gap);
     bool now = false;
-    const auto allocated = allocations_in([&] { now = guard.mend(gap, made.poses({0, gap.count})); });
+    const auto allocated = allocations_in([&] { now = guard.repair(gap, made.poses({0, gap.count})); });
     if (bent > 0) EXPECT_EQ(allocated, 0u);
     bent += now ? 1 : 0;
   }
   EXPECT_GT(bent, 3);
 }
 
-TEST(FingerGuard, IsNotThereWithoutFingers) {
+TEST(FingerGuard, IsUnknownWithoutFingers) {
   const auto skeleton = whole_person(1, false);
   EXPECT_FALSE(FingerGuard(*skeleton, rig_of_signer(*skeleton), Side::left).known());
 }

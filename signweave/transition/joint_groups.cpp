@@ -30,7 +30,7 @@ JointGroups joint_groups(const Skeleton& skeleton, const RigMap& rig) {
     const JointIndex clavicle = rig[of(side, Part::left_clavicle)].joint;
     const JointIndex top = clavicle != kNoJoint ? clavicle : rig[of(side, Part::left_upper_arm)].joint;
     if (top == kNoJoint) continue;
-    // The chain first; then what hangs on the wrist are fingers, and what hangs on the arm goes with it.
+    // The chain first; then descendants of the wrist are fingers, and other descendants of the arm belong to the arm.
     bool reached = false;
     for (JointIndex joint = wrist; joint != kNoJoint && !reached; joint = skeleton.joint(joint).parent) {
       reached = joint == top;

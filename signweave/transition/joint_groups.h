@@ -10,12 +10,12 @@
 
 namespace signweave {
 
-/// Joints that move together, so that each group of them has its own timing and its own way over a gap.
+/// Joints that move together; each group has its own timing and trajectory over a gap.
 enum class JointGroup : std::uint8_t {
-  body = 0,      ///< root, trunk, head, legs, and whatever no other group has
-  left_arm = 1,  ///< from the clavicle to the wrist's joint, with helpers between; without the fingers
+  body = 0,      ///< root, trunk, head, legs, and all joints of no other group
+  left_arm = 1,  ///< from the clavicle to the wrist joint, including helper joints; without the fingers
   right_arm = 2,
-  left_fingers = 3,  ///< what hangs on the wrist's joint
+  left_fingers = 3,  ///< the descendants of the wrist joint
   right_fingers = 4,
 };
 inline constexpr std::size_t kJointGroups = 5;
@@ -34,7 +34,7 @@ class GroupSet {
   }
   constexpr bool has(JointGroup group) const noexcept { return (bits_ & bit(group)) != 0; }
   constexpr bool empty() const noexcept { return bits_ == 0; }
-  /// Those that are in the other set, too; and those that are not.
+  /// The intersection with the other set, and the difference.
   constexpr GroupSet within(GroupSet other) const noexcept { return of_bits(bits_ & other.bits_); }
   constexpr GroupSet without(GroupSet other) const noexcept { return of_bits(bits_ & ~other.bits_); }
   friend constexpr bool operator==(GroupSet, GroupSet) = default;
@@ -58,10 +58,10 @@ constexpr JointGroup fingers_of(Side side) noexcept {
   return side == Side::left ? JointGroup::left_fingers : JointGroup::right_fingers;
 }
 
-/// What a joint does for the way of a hand through space.
+/// The role of a joint in the trajectory of a hand.
 enum class JointRole : std::uint8_t {
-  other = 0,      ///< nothing: head, legs
-  trunk = 1,      ///< an arm hangs on it
+  other = 0,      ///< none: head, legs
+  trunk = 1,      ///< an ancestor of an arm
   shoulder = 2,   ///< the upper arm's joint
   elbow = 3,      ///< the forearm's
   other_arm = 4,  ///< clavicle, wrist, helpers
@@ -69,13 +69,13 @@ enum class JointRole : std::uint8_t {
 };
 inline constexpr std::size_t kJointRoles = 6;
 
-/// Which group each joint belongs to. A rig whose hands are not known is one group, the body.
+/// The group of each joint. A rig with unknown hands has one group, the body.
 struct JointGroups {
   std::vector<JointGroup> of;                             ///< [joint]
   std::array<std::vector<JointIndex>, kJointGroups> all;  ///< [group] its joints, ascending
   std::vector<JointGroup> of_translation;                 ///< [translated joint]
   std::vector<JointRole> roles;                           ///< [joint]
-  std::array<JointIndex, 2> wrists{kNoJoint, kNoJoint};   ///< [Side]; kNoJoint: this arm is not known
+  std::array<JointIndex, 2> wrists{kNoJoint, kNoJoint};   ///< [Side]; kNoJoint: this arm is unknown
 
   const std::vector<JointIndex>& operator[](JointGroup group) const noexcept {
     return all[static_cast<std::size_t>(group)];

@@ -50,7 +50,7 @@ TEST(JointGroups, OfAWholeBody) {
   EXPECT_EQ(count, skeleton.joint_count());
 }
 
-TEST(JointGroups, WithoutKnownHandsAllIsTheBody) {
+TEST(JointGroups, WithoutKnownHandsAllJointsAreBody) {
   const Motion motion = whole_body();
   const JointGroups groups = joint_groups(motion.skeleton(), RigMap{});
   for (const JointGroup group : groups.of) EXPECT_EQ(group, JointGroup::body);
@@ -59,7 +59,7 @@ TEST(JointGroups, WithoutKnownHandsAllIsTheBody) {
   EXPECT_EQ(groups.wrists[0], kNoJoint);
 }
 
-TEST(JointGroups, OneArmMayBeKnownAlone) {
+TEST(JointGroups, ASingleArmMayBeKnown) {
   const Motion motion = whole_body();
   RigMap rig = map_rig(motion);
   rig[Part::left_hand] = {};
@@ -70,7 +70,7 @@ TEST(JointGroups, OneArmMayBeKnownAlone) {
   EXPECT_EQ(groups.wrists[0], kNoJoint);
 }
 
-TEST(JointGroups, ASetHasWhatItWasGiven) {
+TEST(JointGroups, ASetContainsItsGroups) {
   constexpr GroupSet set{JointGroup::left_arm, JointGroup::right_fingers};
   EXPECT_TRUE(set.has(JointGroup::left_arm));
   EXPECT_FALSE(set.has(JointGroup::body));

@@ -9,16 +9,16 @@
 
 namespace signweave {
 
-/// Guards examine one frame of this many at least, whatever they find: in 0.07 s an arm that turns as fast as signers'
-/// do leaves the line between both frames by about a centimetre at most.
+/// Guards always examine at least one frame in this many: in 0.07 s an arm moving as fast as in signing deviates from
+/// the straight line between the two frames by about a centimetre at most.
 inline std::int64_t knot_stride(FrameRate rate) noexcept {
   return std::max<std::int64_t>(1, static_cast<std::int64_t>(0.07 * rate.hertz()));
 }
 
-/// Adds knots, examined frames of a gap in ascending order with their number in `frame`, until none are farther apart
-/// than `stride` and nothing can be hidden between two of them. `make(frame)` examines another, `hides(a, b)` says
-/// whether the frames between two knots may have what neither shows. `scratch` is memory of the caller's, so that
-/// nothing is allocated once it has grown. Returns whether there are more knots now.
+/// Adds knots until no two neighbours are more than `stride` frames apart and nothing can be hidden between them. Knots
+/// are examined frames of a gap in ascending order, with their number in `frame`. `make(frame)` examines a frame;
+/// `hides(a, b)` returns true if the frames between two knots may contain something that neither shows. `scratch` is
+/// memory of the caller, so that nothing is allocated once it has grown. Returns true if knots were added.
 template <class Knot, class Make, class Hides>
 bool refine_knots(std::vector<Knot>& knots, std::vector<Knot>& scratch, std::int64_t stride, const Make& make,
                   const Hides& hides) {
@@ -31,7 +31,7 @@ bool refine_knots(std::vector<Knot>& knots, std::vector<Knot>& scratch, std::int
       const std::int64_t between = knots[i + 1].frame - knots[i].frame;
       if (between < 2 || (between <= stride && !hides(knots[i], knots[i + 1]))) continue;
       more = true;
-      // Whole strides first, so that the knots that are added anyway lie evenly.
+      // Whole strides first, so that the mandatory knots are evenly spaced.
       scratch.push_back(
           make(knots[i].frame + (between > stride ? std::max(stride, between / 2 / stride * stride) : between / 2)));
     }
@@ -41,7 +41,7 @@ bool refine_knots(std::vector<Knot>& knots, std::vector<Knot>& scratch, std::int
   return any;
 }
 
-/// Calls `use(frame)` for each of so many frames that is no knot.
+/// Calls `use(frame)` for each of the `count` frames that is not a knot.
 template <class Knot, class Use>
 void for_each_between_knots(const std::vector<Knot>& knots, std::int64_t count, const Use& use) {
   std::size_t next = 1;  // the first is the left border

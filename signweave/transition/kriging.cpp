@@ -13,27 +13,27 @@
 namespace signweave {
 namespace {
 
-/// Covariance at a distance in time, of variance 1.
+/// Covariance at a time distance, for variance 1.
 double matern(double distance, double length) noexcept {
   const double r = std::sqrt(5.0) * std::abs(distance) / length;
   return (1 + r + r * r / 3) * std::exp(-r);
 }
 
-/// How long a trajectory remembers itself: longer in longer gaps, whose movements are slower. Found on captured spans
-/// (docs/decisions/transitions.md, 226). Below ten frames a second it is three frames, or they would say nothing of
-/// each other.
+/// Correlation length of a trajectory: longer in longer gaps, whose movements are slower. Tuned on captured spans
+/// (docs/decisions/transitions.md, 226). Below ten frames a second it is three frames; otherwise frames would be
+/// uncorrelated.
 double length_for(double seconds, double frame_time) noexcept {
   return std::max(0.3 * std::max(1.0, seconds), 3 * frame_time);
 }
 
-/// Variance of what the samples are off, in the covariance's own unit: that of a clean capture, for each squared radian
-/// of noise, and at most. The border itself is met whatever the noise.
+/// Variance of the samples' errors, in the covariance's unit: for a clean capture, per squared radian of noise, and its
+/// maximum. The border itself is met regardless of the noise.
 constexpr double kNoise = 1e-5;
 constexpr double kNoiseBySquare = 10;
 constexpr double kMostNoise = 50 * kNoise;
 constexpr double kBorderNoise = 1e-9;
 
-/// Mean variance of shoulders and elbows on both sides, in squared radians.
+/// Mean noise variance of shoulders and elbows on both sides, in squared radians.
 double arm_noise(const Gap& gap) noexcept {
   double sum = 0;
   int count = 0;
@@ -49,13 +49,13 @@ double arm_noise(const Gap& gap) noexcept {
   return count > 0 ? sum / count : 0;
 }
 
-/// In steps of a half octave, so that gaps between many recordings are of few kinds.
+/// Rounded to half octaves, so that gaps between many recordings have few kinds.
 double noise_for(const Gap& gap) noexcept {
   const double noise = std::clamp(kNoiseBySquare * arm_noise(gap), kNoise, kMostNoise);
   return kNoise * std::exp2(std::round(2 * std::log2(noise / kNoise)) / 2);
 }
 
-/// All that weights depend on.
+/// Everything that weights depend on.
 struct Kind {
   double hertz = 0;
   double pause = 0;  ///< seconds
@@ -76,22 +76,22 @@ struct Kind {
   }
 };
 
-/// The weights of one kind of gap. Written once, by the thread that takes it, and then only read.
+/// The weights of one kind of gap. Written once, by the thread that claims the entry, and then only read.
 struct KeptWeights {
   enum State : int { free, written, ready };
   std::atomic<int> state{free};
   Kind kind;
   std::array<float, static_cast<std::size_t>(kMostKeptFrames) * 2 * Kriging::kMostSamples> rows;  ///< [frame][sample]
 };
-std::array<KeptWeights, kMostKept> kept_weights;  // all zero, so that its pages are taken when it is written
+std::array<KeptWeights, kMostKept> kept_weights;  // all zero, so that its pages are allocated on writing
 
-/// The place of a kind: where its weights are, or one to write them into, which is then taken. Neither where all that
-/// it may have are taken.
-struct Place {
+/// The cache entry of a kind: its weights, or a newly claimed entry to write them to. Neither if all its entries are
+/// taken.
+struct CacheEntry {
   const KeptWeights* known = nullptr;
   KeptWeights* taken = nullptr;
 };
-Place place_of(const Kind& kind) noexcept {
+CacheEntry entry_of(const Kind& kind) noexcept {
   constexpr std::size_t kLookedAt = 8;
   if (kind.frames > kMostKeptFrames) return {};
   const std::size_t first = kind.hash();
@@ -124,26 +124,26 @@ Kriging::Kriging(const Gap& gap, const GapTime& time, std::vector<double>& memor
   left_ = count(gap.before);
   right_ = count(gap.after);
   memory.resize(2 * samples() * samples() + 2 * samples());
-  Place place;
-  if (weights == Weights::kept) {
-    place = place_of({.hertz = hertz_,
+  CacheEntry entry;
+  if (weights == Weights::cached) {
+    entry = entry_of({.hertz = hertz_,
                       .pause = gap.pause.count(),
                       .noise = noise_,
                       .frames = gap.count,
                       .left = left_,
                       .right = right_});
   }
-  if (place.known != nullptr) {
-    rows_ = place.known->rows.data();
+  if (entry.known != nullptr) {
+    rows_ = entry.known->rows.data();
     return;
   }
   solve(memory);
-  if (place.taken == nullptr) return;
-  float* const rows = place.taken->rows.data();
+  if (entry.taken == nullptr) return;
+  float* const rows = entry.taken->rows.data();
   for (std::int64_t frame = 0; frame < gap.count; ++frame) {
     row(time.at(frame), frame, rows + static_cast<std::size_t>(frame) * samples());
   }
-  place.taken->state.store(KeptWeights::ready, std::memory_order_release);
+  entry.taken->state.store(KeptWeights::ready, std::memory_order_release);
   rows_ = rows;
 }
 
@@ -159,7 +159,7 @@ void Kriging::solve(std::vector<double>& memory) {
     covariance(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(i)) +=
         i == 0 || i == left_ ? kBorderNoise : noise_;
   }
-  // In place: nothing is allocated.
+  // In place, without allocation.
   Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>> factor(covariance);
   inverse.setIdentity();
   factor.solveInPlace(inverse);
@@ -181,12 +181,12 @@ void Kriging::row(double t, std::int64_t frame, float* out) const noexcept {
   }
   const double time = t * seconds_;
   const std::size_t n = samples();
-  double told = 0;  // how much the samples tell: what is left is made up for by the unknown mean
+  double explained = 0;  // share explained by the samples; the unknown mean accounts for the remainder
   for (std::size_t i = 0; i < n; ++i) {
     near_[i] = matern(time - time_of(i), length_);
-    told += sums_[i] * near_[i];
+    explained += sums_[i] * near_[i];
   }
-  const double rest = (1 - told) / total_;
+  const double rest = (1 - explained) / total_;
   for (std::size_t i = 0; i < n; ++i) {
     double weight = rest * sums_[i];
     for (std::size_t j = 0; j < n; ++j) weight += inverse_[i * n + j] * near_[j];
@@ -199,7 +199,7 @@ void Kriging::coefficients(const Sides& sides, Eigen::Vector3f* out) const noexc
   for (std::size_t i = 0; i < right_; ++i) out[left_ + i] = sides.after[i * stride_];
 }
 
-void Kriging::ways(const GapScratch& scratch, double, float* out) const noexcept {
+void Kriging::vectors(const GapScratch& scratch, double, float* out) const noexcept {
   const std::size_t width = 3 * scratch.taken.size();
   const auto take = [&](const std::vector<float>& seen, std::size_t samples) {
     for (std::size_t i = 0; i < samples; ++i) out = std::copy_n(seen.data() + i * stride_ * width, width, out);
@@ -229,7 +229,7 @@ void FingerCurves::coefficients(const Sides& sides, Eigen::Vector3f* out) const 
   out[3] = seconds * after.of(sides.after);
 }
 
-void FingerCurves::ways(const GapScratch& scratch, double seconds, float* out) const noexcept {
+void FingerCurves::vectors(const GapScratch& scratch, double seconds, float* out) const noexcept {
   const std::size_t width = 3 * scratch.taken.size();
   const auto over = static_cast<float>(seconds);
   std::copy_n(scratch.seen[0].data(), width, out);

@@ -5,31 +5,32 @@
 
 #include "signweave/transition/curves.h"
 
-/// Inside this module only.
+/// Internal to this module.
 namespace signweave {
 
-/// The best linear guess of a joint's way from what lies within kKrigingContext of both borders, if ways are random
-/// functions with an unknown mean and a Matérn covariance of smoothness 5/2 (ordinary kriging; Stein, Interpolation of
-/// Spatial Data, 1999): it has place, velocity and acceleration at the borders as far as the samples can be trusted,
-/// which is less the more the captures shake (Gap::noise_before and noise_after).
+/// The best linear prediction of a joint's trajectory from the samples within kKrigingContext of both borders, with
+/// trajectories modelled as random functions with an unknown mean and a Matérn covariance of smoothness 5/2 (ordinary
+/// kriging; Stein, Interpolation of Spatial Data, 1999). At the borders it matches position, velocity and acceleration
+/// as far as the samples can be trusted, which is less the noisier the captures are (Gap::noise_before and
+/// noise_after).
 class Kriging {
  public:
-  static constexpr std::size_t kMostSamples = 10;  ///< a side
+  static constexpr std::size_t kMostSamples = 10;  ///< per side
 
   enum class Weights {
-    kept,  ///< `row` must be asked for the frames of the gap, each at its time
-    anew,  ///< solved in any case: `row` may be asked for any moment
+    cached,  ///< `row` must be called for the frames of the gap, each at its time
+    solved,  ///< always solved: `row` may be called for any time
   };
 
-  /// Solves for a gap; O(samples³), once for all joints, and not again for gaps of the same length, rate and context:
-  /// the weights of the first kMostKept kinds of gaps are kept by the program (in 2.6 MB, which it never allocates).
-  /// `memory` is used for it and must outlive this. Threads may construct them at the same time.
-  Kriging(const Gap& gap, const GapTime& time, std::vector<double>& memory, Weights weights = Weights::kept);
+  /// Solves for a gap in O(samples³), once for all joints. The weights are cached for gaps of the same length, rate and
+  /// context: the first kMostKept kinds of gaps, in 2.6 MB of static memory. `memory` is used for the solution and must
+  /// outlive this object. Threads may construct objects concurrently.
+  Kriging(const Gap& gap, const GapTime& time, std::vector<double>& memory, Weights weights = Weights::cached);
 
   std::size_t terms() const noexcept { return samples(); }
   void row(double t, std::int64_t frame, float* out) const noexcept;
   void coefficients(const Sides& sides, Eigen::Vector3f* out) const noexcept;
-  void ways(const GapScratch& scratch, double seconds, float* out) const noexcept;
+  void vectors(const GapScratch& scratch, double seconds, float* out) const noexcept;
 
  private:
   void solve(std::vector<double>& memory);
@@ -42,19 +43,20 @@ class Kriging {
   double hertz_;
   double seconds_;
   double length_;
-  double noise_;  ///< variance of the samples but the borders, in the covariance's own unit
+  double noise_;  ///< variance of the samples except the borders, in the covariance's unit
   std::size_t left_ = 0;
   std::size_t right_ = 0;
   std::size_t stride_ = 1;
-  const double* inverse_ = nullptr;  ///< [sample][sample] of the covariance
-  const double* sums_ = nullptr;     ///< [sample] row sums of it
-  double* near_ = nullptr;           ///< [sample] covariance with the moment looked at
+  const double* inverse_ = nullptr;  ///< [sample][sample] inverse of the covariance
+  const double* sums_ = nullptr;     ///< [sample] row sums of the inverse
+  double* near_ = nullptr;           ///< [sample] covariance with the current time
   double total_ = 1;
-  const float* rows_ = nullptr;  ///< [frame][sample] of weights that are kept; null: they are not
+  const float* rows_ = nullptr;  ///< [frame][sample] of cached weights; null: not cached
 };
 
-/// How fingers go: from one border's pose to the other's, level at both; a border's velocity goes on and is used up
-/// within kRun of the gap. Kriged ways go on with a velocity for longer than fingers do (docs/evaluation.md). (ours)
+/// Trajectories of fingers: from one border's pose to the other's, with zero slope at both, plus a border's velocity
+/// that decays within kRun of the gap. Kriged trajectories keep a velocity for longer than fingers do
+/// (docs/evaluation.md). (ours)
 struct FingerCurves {
   static constexpr double kRun = 0.7;
   BorderVelocity before, after;
@@ -66,10 +68,10 @@ struct FingerCurves {
   std::size_t terms() const noexcept { return 4; }
   void row(double t, std::int64_t frame, float* out) const noexcept;
   void coefficients(const Sides& sides, Eigen::Vector3f* out) const noexcept;
-  void ways(const GapScratch& scratch, double seconds, float* out) const noexcept;
+  void vectors(const GapScratch& scratch, double seconds, float* out) const noexcept;
 };
 
-/// A job in two: that of its fingers and that of everything else, where there are such.
+/// Splits a job into its fingers and everything else, and fills each part that is not empty.
 template <class OfFingers, class OfOthers>
 void fill_by_part(const GapJob& job, const OfFingers& of_fingers, const OfOthers& of_others) {
   constexpr GroupSet kFingerGroups{JointGroup::left_fingers, JointGroup::right_fingers};
@@ -82,6 +84,6 @@ void fill_by_part(const GapJob& job, const OfFingers& of_fingers, const OfOthers
 
 inline constexpr double kKrigingContext = 1.0 / 15;  ///< seconds
 inline constexpr std::size_t kMostKept = 256;
-inline constexpr std::int64_t kMostKeptFrames = 128;  ///< of one gap; of longer ones nothing is kept
+inline constexpr std::int64_t kMostKeptFrames = 128;  ///< of one gap; longer gaps are not cached
 
 }  // namespace signweave

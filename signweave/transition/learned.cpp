@@ -9,9 +9,9 @@
 namespace signweave {
 namespace {
 
-/// How far a joint's way leans from the kriged one to the cubic through both borders with their velocities. Kriging
-/// leads hands best; the cubic is surer where a capture is noisy, and for joints that hands do not hang on. Found on
-/// captured spans (docs/evaluation.md).
+/// Blend weight from the kriged trajectory to the cubic through both borders with their velocities. Kriging is best for
+/// hands; the cubic is more robust with noisy captures, and for joints that do not carry hands. Tuned on captured spans
+/// (docs/evaluation.md).
 float lean_of(JointRole role) noexcept {
   switch (role) {
     case JointRole::trunk:
@@ -27,11 +27,11 @@ float lean_of(JointRole role) noexcept {
   return 1.0f;
 }
 
-/// Fingers hardly go on as they did at a border: how much of their velocity does.
+/// The share of a border's velocity that fingers keep; they hardly continue their movement.
 constexpr float kFingerVelocity = 0.25f;
 
-/// The velocity at a border away from the gap, of the parabola through it and the two frames beside it: what the next
-/// frame must go on with, or the seam is a kink.
+/// The velocity at a border away from the gap, of the parabola through it and the next two frames. The next frame must
+/// continue it, otherwise the seam has a kink.
 Eigen::Vector3f velocity_at(std::span<const Eigen::Vector3f> path, double hertz) noexcept {
   if (path.size() < 2) return Eigen::Vector3f::Zero();
   const auto rate = static_cast<float>(hertz);
@@ -39,7 +39,7 @@ Eigen::Vector3f velocity_at(std::span<const Eigen::Vector3f> path, double hertz)
   return 0.5f * rate * (4 * path[1] - 3 * path[0] - path[2]);
 }
 
-/// The kriged way, leaning a little to the cubic, and what was learned of how captured ones bend from it.
+/// The kriged trajectory, blended slightly with the cubic, plus the learned correction.
 struct Learned {
   Kriging kriging;
   const TransitionModel& model;

@@ -1,4 +1,4 @@
-// What holds for every row of the table of methods.
+// Properties of every method in the table.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -32,7 +32,7 @@ class EveryMethod : public testing::TestWithParam<GapMethod> {};
 INSTANTIATE_TEST_SUITE_P(Methods, EveryMethod, testing::ValuesIn(gap_methods().begin(), gap_methods().end()),
                          [](const auto& one) { return std::string(one.param.name); });
 
-TEST_P(EveryMethod, WhatRestsStaysAtRest) {
+TEST_P(EveryMethod, AStillBodyStaysStill) {
   const auto resting = [](std::size_t joint, double) {
     return about(axis_of(joint), 0.3 * static_cast<double>(joint));
   };
@@ -50,7 +50,7 @@ TEST_P(EveryMethod, WhatRestsStaysAtRest) {
   }
 }
 
-TEST_P(EveryMethod, AHandThatRestsInABodyThatMovesStaysAtRest) {
+TEST_P(EveryMethod, AStillHandOfAMovingBodyStaysStill) {
   const Motion moving = lively(9.3);
   Motion motion = moving;
   for (std::int64_t frame = 0; frame < motion.frame_count(); ++frame) {
@@ -71,7 +71,7 @@ TEST_P(EveryMethod, QuaternionsAreUnitAndKeepOneHemisphere) {
   const JointGroups of = groups();
   for (const FrameRate rate : {FrameRate{1, 1}, FrameRate{30, 1}, FrameRate{100, 1}, FrameRate{2000, 1}}) {
     Motion motion = lively(2.1, rate, 200);
-    for (std::int64_t frame = 100; frame < 200; ++frame) {  // each side has signs of its own
+    for (std::int64_t frame = 100; frame < 200; ++frame) {  // each side has its own signs
       for (Eigen::Quaternionf& q : motion.pose(frame).rotations) q.coeffs() *= -1.0f;
     }
     for (const std::int64_t count : {1, 2, 19, 60}) {
@@ -93,7 +93,7 @@ TEST_P(EveryMethod, QuaternionsAreUnitAndKeepOneHemisphere) {
   }
 }
 
-TEST_P(EveryMethod, HalfATurnBetweenBordersIsAWayLikeOthers) {
+TEST_P(EveryMethod, HalfATurnBetweenBordersIsFilledSmoothly) {
   const JointGroups of = groups();
   for (const double off : {-1e-3, -1e-7, 0.0, 1e-7, 1e-3}) {
     const auto turn = [off](std::size_t joint, double t) {
@@ -102,15 +102,15 @@ TEST_P(EveryMethod, HalfATurnBetweenBordersIsAWayLikeOthers) {
     const Motion motion = motion_of({100, 1}, 150, turn);
     const Filled made = fill(GetParam(), cut(motion, of, {55, 95}), *model_with_spans());
     for (std::size_t joint = 0; joint < kJoints; ++joint) {
-      double way = 0;
+      double travelled = 0;
       Eigen::Quaternionf last = motion.pose(54).rotations[joint];
       for (std::int64_t frame = 0; frame <= 40; ++frame) {
         const Eigen::Quaternionf q = frame < 40 ? made.at(frame, joint) : motion.pose(95).rotations[joint];
         ASSERT_TRUE(q.coeffs().allFinite());
-        way += angle(last, q);
+        travelled += angle(last, q);
         last = q;
       }
-      EXPECT_NEAR(way, std::numbers::pi, 0.35) << joint << ' ' << off;  // bends are learned, so not to the bit
+      EXPECT_NEAR(travelled, std::numbers::pi, 0.35) << joint << ' ' << off;  // bends are learned, so this is not exact
     }
   }
 }
@@ -126,7 +126,7 @@ TEST_P(EveryMethod, OtherGroupsKeepTheirBits) {
       for (std::size_t joint = 0; joint < kJoints; ++joint) {
         const bool untouched = one.at(frame, joint).coeffs() == kUntouched.coeffs();
         EXPECT_EQ(untouched, of.of[joint] != group) << joint;
-        // What is compared with captured spans is the group that is filled; all else is made joint by joint.
+        // Only the filled group is compared with captured spans; all other methods work joint by joint.
         if (untouched || GetParam().needs == Needs::spans) continue;
         EXPECT_EQ(one.at(frame, joint).coeffs(), all.at(frame, joint).coeffs()) << joint;
       }
@@ -135,7 +135,7 @@ TEST_P(EveryMethod, OtherGroupsKeepTheirBits) {
   }
 }
 
-TEST_P(EveryMethod, TheSameInputGivesTheSameBitsWhateverTheScratchHolds) {
+TEST_P(EveryMethod, ResultsDoNotDependOnTheScratch) {
   const Motion motion = lively(4.4);
   const JointGroups of = groups();
   const Gap gap = cut(motion, of, {100, 133});
@@ -160,8 +160,8 @@ TEST_P(EveryMethod, ThreadsMayShareAModel) {
   for (const Filled& one : made) EXPECT_TRUE(same_bits(one, alone));
 }
 
-/// What turns a joint's rotations on the left turns what is made of them: no method knows which way is up.
-TEST_P(EveryMethod, KnowsNoDirections) {
+/// Rotating a joint's rotations from the left rotates the result: no method depends on the direction of up.
+TEST_P(EveryMethod, IsRotationInvariant) {
   const GapMethod& method = GetParam();
   EXPECT_TRUE(rc::check([&method] {
     const auto number = [](int from, int to) { return static_cast<float>(*rc::gen::inRange(from, to)) / 100; };
@@ -191,7 +191,7 @@ TEST_P(EveryMethod, KnowsNoDirections) {
   }));
 }
 
-TEST_P(EveryMethod, NumbersThatAreNoneStayInTheirJoint) {
+TEST_P(EveryMethod, NonFiniteValuesStayInTheirJoint) {
   const Motion sound = lively(6.6);
   const JointGroups of = groups();
   for (const float bad : {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity(), 0.0f}) {
@@ -205,15 +205,15 @@ TEST_P(EveryMethod, NumbersThatAreNoneStayInTheirJoint) {
       for (std::int64_t frame = 0; frame < 30; ++frame) {
         for (std::size_t joint = 0; joint < kJoints; ++joint) {
           if (joint == kFore) continue;
-          ASSERT_NEAR(made.at(frame, joint).norm(), 1.0f, 2e-6f) << joint << " beside " << bad;
+          ASSERT_NEAR(made.at(frame, joint).norm(), 1.0f, 2e-6f) << joint << " next to " << bad;
         }
       }
     }
   }
 }
 
-TEST_P(EveryMethod, AMinuteAtTwoThousandHertzSwingsNoFartherThanASecondDoes) {
-  // Every joint turns at 3 rad/s into the gap and out of it.
+TEST_P(EveryMethod, ALongGapSwingsNoFartherThanAShortOne) {
+  // Every joint rotates at 3 rad/s at both borders.
   const FrameRate rate{2000, 1};
   constexpr std::int64_t kSide = 700;
   const JointGroups of = groups();
@@ -231,17 +231,17 @@ TEST_P(EveryMethod, AMinuteAtTwoThousandHertzSwingsNoFartherThanASecondDoes) {
     return most;
   };
   EXPECT_LT(farthest(120'000), 2.2 + 0.9 * farthest(3'000));
-  // Else it turns about itself. (What is reflected in a border goes on turning as it came, for as long as it did.)
+  // Otherwise it would make whole turns. (A reflected side keeps rotating for as long as it did before.)
   if (GetParam().name != "crossfade") {
     EXPECT_LT(farthest(120'000), 3.1);
   }
 }
 
-// Some methods promise more.
+// Additional properties of some methods.
 
 struct Promise {
   std::string_view name;
-  double share;  ///< of the speed at a border that may be gone within a frame of it
+  double share;  ///< share of a border's speed that may be lost within a frame
 };
 
 class EveryPromise : public testing::TestWithParam<Promise> {};
@@ -251,8 +251,8 @@ INSTANTIATE_TEST_SUITE_P(Methods, EveryPromise,
                                          Promise{"learned", 0.25}),
                          [](const auto& one) { return std::string(one.param.name); });
 
-TEST_P(EveryPromise, VelocityGoesOnAtBothBorders) {
-  // The default model damps and bends on purpose: that is measured elsewhere. Here all that a border tells goes on.
+TEST_P(EveryPromise, VelocityIsContinuousAtBothBorders) {
+  // The default model damps and bends on purpose, which is tested elsewhere. Here velocities continue completely.
   TransitionModel model = untaught();
   model.libraries = model_with_spans()->libraries;
   const JointGroups of = groups();
@@ -266,7 +266,7 @@ TEST_P(EveryPromise, VelocityGoesOnAtBothBorders) {
       const Filled made = fill(method_of(GetParam().name), gap, model);
       const double time = rate.frame_time().count();
       for (std::size_t joint = 0; joint < kJoints; ++joint) {
-        if (joint == kFinger && GetParam().name == "learned") continue;  // a quarter of it goes on, on purpose
+        if (joint == kFinger && GetParam().name == "learned") continue;  // only a quarter of it continues, on purpose
         const auto pose = [&](std::int64_t frame) {
           const bool inside = frame >= begin && frame < begin + count;
           return inside ? made.at(frame - begin, joint) : motion.pose(frame).rotations[joint];
@@ -290,7 +290,7 @@ TEST_P(EveryPromise, VelocityGoesOnAtBothBorders) {
   }
 }
 
-TEST(Methods, ASteadyTurnGoesOnSteadily) {
+TEST(Methods, ASteadyRotationContinuesSteadily) {
   const JointGroups of = groups();
   for (const auto& [rate, most] : {std::pair{FrameRate{30, 1}, 0.05}, {FrameRate{120, 1}, 0.05}}) {
     const auto hertz = static_cast<std::int64_t>(rate.hertz());
@@ -320,7 +320,7 @@ TEST(Methods, ASteadyTurnGoesOnSteadily) {
   }
 }
 
-TEST(Methods, TheirNamesAreUniqueAndTheDefaultIsForSigning) {
+TEST(Methods, NamesAreUniqueAndTheDefaultIsForSigning) {
   std::vector<std::string_view> names;
   for (const GapMethod& method : gap_methods()) {
     EXPECT_EQ(find_gap_method(method.name), &method) << method.name;

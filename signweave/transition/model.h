@@ -13,16 +13,16 @@
 
 namespace signweave {
 
-/// What was learned from captured spans; immutable, so threads may share it.
+/// Parameters learned from captured spans; immutable, so threads may share it.
 struct TransitionModel;
 
-/// Learned from the files that docs/evaluation.md names, and kept in the repository (trained by
+/// The model stored in the repository, learned from the files named in docs/evaluation.md (trained by
 /// tools/train_transitions).
 const TransitionModel& default_transition_model() noexcept;
 
-/// Learns from captured spans of several recordings, so that the model without one of them costs little more than a
-/// solution of its equations. Adding looks at each span once. It belongs to one thread; what it gives out stays as it
-/// is, outlives it and may be shared.
+/// Learns from captured spans of several recordings. A model without one of them costs little more than solving its
+/// equations, because each span is processed once, when added. Used by one thread; returned models are immutable,
+/// outlive it and may be shared.
 class TransitionTrainer {
  public:
   TransitionTrainer();
@@ -30,10 +30,10 @@ class TransitionTrainer {
   TransitionTrainer(TransitionTrainer&&) noexcept;
   TransitionTrainer& operator=(TransitionTrainer&&) noexcept;
 
-  /// Adds a captured stretch: `gap` as a method would be given it, and the frames that were captured where it is.
-  /// `recording` tells which spans go together. Everything is borrowed for the call.
+  /// Adds a captured span: `gap` as passed to a method, and the frames captured in its place. `recording` identifies
+  /// the spans of one recording. Everything is borrowed for the call.
   void add(std::size_t recording, const Gap& gap, PosesView captured);
-  /// What all recordings teach, or all but one.
+  /// The model of all recordings, or of all but one.
   std::shared_ptr<const TransitionModel> model() const;
   std::shared_ptr<const TransitionModel> model_without(std::size_t recording) const;
 
@@ -42,18 +42,18 @@ class TransitionTrainer {
   std::unique_ptr<State> state_;
 };
 
-/// Captured spans for the method `recorded`, without learning anything from them. It belongs to one thread.
+/// Collects captured spans for the method `recorded`, without learning from them. Used by one thread.
 class SpanCollector {
  public:
   SpanCollector();
   ~SpanCollector();
 
-  /// Adds a captured stretch, as TransitionTrainer::add does. False where it is left out: for numbers that are none, or
-  /// because there are thousands already.
+  /// Adds a captured span, as TransitionTrainer::add does. Returns false if it is skipped: for non-finite values, or
+  /// because kMostSpans are stored already.
   bool add(const Gap& gap, PosesView captured);
-  /// What the model says of residuals.
+  /// Sets the residual model of the result.
   void set_residuals(std::shared_ptr<const ResidualModel> residuals);
-  /// The default model, with these spans. They go over into it: the collector is empty then.
+  /// Returns the default model with these spans, which are moved into it: the collector is empty afterwards.
   std::shared_ptr<const TransitionModel> take_model();
 
  private:

@@ -11,14 +11,14 @@ namespace {
 
 using Eigen::Vector3f;
 
-/// A moment as fast as this is a peak; a valley is at most half as fast. Arm lengths a second. (ours)
+/// Minimum speed of a peak; a valley is at most half as fast. Arm lengths a second. (ours)
 constexpr float kLeastPeak = 1.0f;
 constexpr float kValley = 0.5f;
 /// Seconds.
 constexpr double kLengths[] = {0.4, 0.52, 0.735, 1.064};
 constexpr double kShortest = 0.1;
 constexpr double kLongest = 1.5;
-/// Speeds are taken over so much on both sides. Seconds.
+/// Speeds are measured over this time on both sides. Seconds.
 constexpr double kHalfStep = 0.03;
 
 std::int64_t frames_in(double seconds, FrameRate rate) {
@@ -55,8 +55,8 @@ std::vector<std::int64_t> peaks_of(const std::vector<float>& speeds) {
   return peaks;
 }
 
-/// The lowest moment beside a peak, going by `step`; the peak itself where something faster comes first.
-std::int64_t valley_beside(const std::vector<float>& speeds, std::int64_t peak, std::int64_t step) {
+/// The slowest frame next to a peak in direction `step`; the peak itself if a faster frame comes first.
+std::int64_t adjacent_valley(const std::vector<float>& speeds, std::int64_t peak, std::int64_t step) {
   const auto speed = [&](std::int64_t frame) { return speeds[static_cast<std::size_t>(frame)]; };
   for (std::int64_t i = peak + step; i >= 1 && i + 1 < static_cast<std::int64_t>(speeds.size()); i += step) {
     if (!(speed(i) <= speed(peak))) return peak;
@@ -72,7 +72,7 @@ std::vector<FrameRange> captured_movements(const Motion& motion, const JointGrou
   std::vector<FrameRange> all;
   const std::int64_t context = frames_in(0.1, motion.rate()) + 1;
   const std::int64_t count = motion.frame_count();
-  // Of one kind none holds a frame of another, by whichever hand.
+  // Movements of one kind do not overlap, whichever hand they are of.
   const auto take = [&](FrameRange frames, std::size_t first) {
     if (frames.begin < context || frames.end + context > count) return;
     for (std::size_t i = first; i < all.size(); ++i) {
@@ -99,7 +99,7 @@ std::vector<FrameRange> captured_movements(const Motion& motion, const JointGrou
   const std::size_t first = all.size();
   for (std::size_t s = 0; s < 2; ++s) {
     for (const std::int64_t peak : peaks[s]) {
-      const FrameRange frames{valley_beside(speeds[s], peak, -1) + 1, valley_beside(speeds[s], peak, 1)};
+      const FrameRange frames{adjacent_valley(speeds[s], peak, -1) + 1, adjacent_valley(speeds[s], peak, 1)};
       if (frames.begin > peak || frames.end <= peak || frames.size() < frames_in(kShortest, motion.rate()) ||
           frames.size() > frames_in(kLongest, motion.rate())) {
         continue;

@@ -13,12 +13,12 @@ namespace {
 constexpr float kShrink = 3;
 constexpr double kFade = 0.06;  // seconds
 
-/// What is left of a term.
+/// The share of a term that remains.
 float kept(float square, float noise) noexcept {
   return square > kShrink * noise ? 1 - kShrink * noise / square : 0.0f;
 }
 
-/// One side, [frame from the border][x y z][taken]. Returns whether anything was changed.
+/// Processes one side, [frame from the border][x y z][taken]. Returns true if anything was changed.
 bool quieten_side(const GapScratch& scratch, const CaptureNoise& noise, std::vector<float>& seen,
                   std::vector<float>& offsets) {
   const std::size_t width = scratch.taken.size();
@@ -39,7 +39,7 @@ bool quieten_side(const GapScratch& scratch, const CaptureNoise& noise, std::vec
       all += path[k].squaredNorm();
     }
     const ShortFit::Terms terms = fit.terms_of({path.data(), samples});
-    const float variance = 3 * deviation * deviation;  // of all axes
+    const float variance = 3 * deviation * deviation;  // over all axes
     const float velocity = kept(terms[1].squaredNorm(), variance);
     const float curvature = kept(terms[2].squaredNorm(), variance);
     const float rest_square = all - terms[0].squaredNorm() - terms[1].squaredNorm() - terms[2].squaredNorm();

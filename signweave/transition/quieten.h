@@ -2,19 +2,19 @@
 
 #include "signweave/transition/method.h"
 
-/// Inside this module only.
+/// Internal to this module.
 namespace signweave {
 
-/// Takes the capture's noise out of what was seen of both sides of a gap (see_all): a quadratic is fitted to each
-/// joint's samples, and velocity, curvature and what is left are each taken times 1 − kShrink · noise / square, at
-/// least 0, where `noise` is what Gap::noise_before and noise_after alone would make of its square (James and Stein
-/// 1961). So what a capture without noise shows stays as it is, and what noise alone would show is dropped.
+/// Removes the capture's noise from the samples of both sides of a gap (see_all). A quadratic is fitted to each joint's
+/// samples; velocity, curvature and the remainder are each multiplied by max(0, 1 − kShrink · noise / square), where
+/// `noise` is the expected square from Gap::noise_before and noise_after alone (James and Stein 1961). So motion of a
+/// noise-free capture is unchanged, and motion that noise alone explains is dropped.
 ///
-/// The borders are moved with it. What they are moved by is left in `scratch.offsets`: a curve must fade it out, so
-/// that it meets the captured frames. False where nothing was changed, and there are no offsets.
+/// The borders are moved too. Their offsets are stored in `scratch.offsets`; a curve must fade them out so that it
+/// meets the captured frames. Returns false if nothing was changed; then there are no offsets.
 bool quieten(const GapJob& job);
 
-/// How much of an offset is left at a moment, so many seconds from its border.
+/// The share of an offset that is left `seconds` after its border.
 float offset_left(double seconds, double gap) noexcept;
 
 }  // namespace signweave

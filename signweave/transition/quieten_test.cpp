@@ -1,4 +1,4 @@
-// How the noise of a capture is kept out of what is made beside it.
+// Tests that the noise of a capture does not enter generated frames.
 
 #include "signweave/transition/quieten.h"
 
@@ -14,8 +14,8 @@ namespace {
 
 using namespace testing_way;
 
-/// Degrees between what a method makes of a gap in a shaken motion and the motion without noise; the mean over joints,
-/// frames and gaps.
+/// The angle between a method's result in a noisy motion and the motion without noise, in degrees; the mean over
+/// joints, frames and gaps.
 double error_of(std::string_view method, double radians, bool known, double rate) {
   const JointGroups of = groups();
   GapScratch scratch;
@@ -42,7 +42,7 @@ double error_of(std::string_view method, double radians, bool known, double rate
     const Filled made = fill(*find_gap_method(method), gap, TransitionModel{}, scratch);
     for (std::int64_t frame = 0; frame < gap.count; ++frame) {
       for (std::size_t joint = 0; joint < testing_way::kJoints; ++joint) {
-        if (of.roles[joint] == JointRole::finger) continue;  // comes to rest, as fingers do, and these swing on
+        if (of.roles[joint] == JointRole::finger) continue;  // fingers are brought to rest, but these keep swinging
         sum += static_cast<double>(made.at(frame, joint).angularDistance(clean.pose(first + frame).rotations[joint]));
         ++count;
       }
@@ -51,13 +51,13 @@ double error_of(std::string_view method, double radians, bool known, double rate
   return sum / static_cast<double>(count) * 180 / M_PI;
 }
 
-TEST(Quieten, ANoisyCaptureIsFollowedAsACleanOneIs) {
+TEST(Quieten, ANoisyCaptureIsFollowedLikeACleanOne) {
   for (const double rate : {24.0, 30.0, 60.0, 100.0, 120.0}) {
     for (const double radians : {0.002, 0.005, 0.01}) {
       SCOPED_TRACE(testing::Message() << rate << " frames a second, " << radians);
       const double quiet = error_of("kriging", radians, true, rate);
       EXPECT_LT(quiet, error_of("kriging", radians, false, rate));
-      // Little noise adds little to what the method is off without any.
+      // Little noise adds little to the method's error without noise.
       const double clean = error_of("kriging", 0, false, rate);
       EXPECT_LT(quiet, std::max(error_of("hermite", radians, false, rate), 1.3 * clean)) << "the cubic";
       EXPECT_LT(quiet, error_of("sine", radians, false, rate)) << "minimum jerk";
@@ -82,7 +82,7 @@ TEST(Quieten, WithoutNoiseNothingChanges) {
   }
 }
 
-TEST(Quieten, WhatIsMadeMeetsTheCapturedFramesAllTheSame) {
+TEST(Quieten, GeneratedFramesStillMeetTheCapturedOnes) {
   const JointGroups of = groups();
   Motion motion = lively(2);
   const CaptureNoise noise{std::vector<float>(testing_way::kJoints, 0.02f), {0.01f}};
@@ -100,7 +100,7 @@ TEST(Quieten, WhatIsMadeMeetsTheCapturedFramesAllTheSame) {
   gap.noise_before = gap.noise_after = &noise;
   const Filled made = fill(*find_gap_method("kriging"), gap, TransitionModel{}, scratch);
   for (std::size_t joint = 0; joint < testing_way::kJoints; ++joint) {
-    // As far as a joint turns in a frame, and what is off fades by in one.
+    // The rotation of a joint in a frame, plus the fading of the offset in one.
     EXPECT_LT(made.at(0, joint).angularDistance(gap.left().rotations[joint]), 0.06f) << joint;
     EXPECT_LT(made.at(59, joint).angularDistance(gap.right().rotations[joint]), 0.06f) << joint;
   }

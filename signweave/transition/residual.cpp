@@ -12,21 +12,21 @@ namespace {
 
 using Eigen::Vector3f;
 
-// Found with collections left out (docs/evaluation.md).
+// Tuned by leaving out collections (docs/evaluation.md).
 constexpr float kGateLength = 2;         ///< of the kernel, standard deviations of the gates
-constexpr float kUngated = 0.3f;         ///< of the kernel, that does not depend on the gates
-constexpr double kResidualNoise = 6;     ///< variance of what is learned from, in the kernel's unit
-constexpr float kResidualFloor = 0.02f;  ///< arm lengths; what is off by more counts less, with this added to both
-/// A residual is kept from going farther than this. Arm lengths.
+constexpr float kUngated = 0.3f;         ///< share of the kernel that does not depend on the gates
+constexpr double kResidualNoise = 6;     ///< variance of the training data, in the kernel's unit
+constexpr float kResidualFloor = 0.02f;  ///< arm lengths; larger errors have less weight, with this added to both
+/// Maximum length of a residual. Arm lengths.
 constexpr float kFarthest = 1.0f;
-/// A wrist that goes less far teaches nothing. Arm lengths.
+/// Wrists that move less than this are not learned from. Arm lengths.
 constexpr float kLeastPath = 0.1f;
 
 std::size_t slot_of(JointIndex joint) {
   return static_cast<std::size_t>(joint);
 }
 
-/// Weight of a centre by its distance from a gap.
+/// Weight of a centre, by its distance from a gap.
 float gate_of(const ResidualModel::Gates& a, const ResidualModel::Gates& b) noexcept {
   float square = 0;
   for (std::size_t i = 0; i < a.size(); ++i) square += (a[i] - b[i]) * (a[i] - b[i]);
@@ -53,7 +53,7 @@ float median_of(std::vector<float> values) {
   return *middle;
 }
 
-/// As many of each fold where there are so many, evenly from all.
+/// Equally many of each fold as far as possible, evenly spread.
 std::vector<const ResidualSpan*> chosen(std::span<const ResidualSpan* const> spans, std::size_t most) {
   if (spans.size() <= most) return {spans.begin(), spans.end()};
   std::map<std::size_t, std::vector<const ResidualSpan*>> by_fold;
@@ -62,7 +62,7 @@ std::vector<const ResidualSpan*> chosen(std::span<const ResidualSpan* const> spa
   for (const auto& [fold, of_fold] : by_fold) folds.push_back(&of_fold);
   std::ranges::stable_sort(folds, [](const auto* a, const auto* b) { return a->size() < b->size(); });
   std::vector<const ResidualSpan*> some;
-  for (std::size_t i = 0; i < folds.size(); ++i) {  // small ones first, so that their rest goes to the others
+  for (std::size_t i = 0; i < folds.size(); ++i) {  // small ones first, so that the others get their unused share
     const std::vector<const ResidualSpan*>& all = *folds[i];
     const std::size_t wanted = std::min(all.size(), (most - some.size()) / (folds.size() - i));
     for (std::size_t k = 0; k < wanted; ++k) some.push_back(all[k * all.size() / wanted]);
@@ -139,9 +139,9 @@ std::optional<ArmSight> see_arm(const Gap& gap, Side side, ArmScratch& scratch) 
   sight.traits = {unit * (scratch.after[0] - scratch.before[0]), unit * seconds * before.velocity,
                   unit * seconds * after.velocity, unit * seconds * seconds * before.acceleration,
                   unit * seconds * seconds * after.acceleration};
-  const auto& [way, from, to, bent_from, bent_to] = sight.traits;
-  sight.gates = {logarithm(way),  logarithm(from),  logarithm(to),    cosine(way, from),
-                 cosine(way, to), cosine(from, to), std::log(seconds)};
+  const auto& [chord, from, to, bent_from, bent_to] = sight.traits;
+  sight.gates = {logarithm(chord),  logarithm(from),  logarithm(to),    cosine(chord, from),
+                 cosine(chord, to), cosine(from, to), std::log(seconds)};
   const bool finite = std::ranges::all_of(sight.traits, [](const Vector3f& one) { return one.allFinite(); });
   return finite ? std::optional(sight) : std::nullopt;
 }
@@ -177,7 +177,7 @@ ResidualModel::Bends residual_of(const ResidualModel& model, const ArmSight& sig
       bends[bend] += sum[trait * ResidualModel::kBends + bend] / model.trait_scale[trait] * sight.traits[trait];
     }
   }
-  // What is far beyond all that was learned from must not throw the hand off.
+  // Inputs far outside the training data must not displace the hand.
   float square = 0;
   for (const Vector3f& bend : bends) square += bend.squaredNorm();
   const float scale = 1 / std::sqrt(1 + square / (kFarthest * kFarthest));

@@ -18,8 +18,8 @@ using namespace testing_way;
 using Eigen::Quaternionf;
 using Eigen::Vector3f;
 
-/// A gap in a lively motion, and wrists that go over it by more than the likeliest way: so much of the way from border
-/// to border as `bow` says, in its middle.
+/// A gap in a lively motion, with wrists that deviate from the most likely trajectory: by `bow` times the distance
+/// between the borders, in its middle.
 struct Bowed {
   Motion motion;
   JointGroups of = groups();
@@ -57,7 +57,7 @@ struct Bowed {
     fill_taught({.gap = gap, .model = model, .scratch = scratch}, out.poses({0, gap.count}));
     return out;
   }
-  /// Mean distance of the wrists from where they were captured.
+  /// Mean distance of the wrists from their captured positions.
   float error(const Motion& out) const {
     float sum = 0;
     for (const Side side : kSides) {
@@ -87,7 +87,7 @@ bool same(const Motion& a, const Motion& b) {
                             [](const Quaternionf& x, const Quaternionf& y) { return x.coeffs() == y.coeffs(); });
 }
 
-TEST(Residuals, WhatWristsDoBeyondTheLikeliestWayIsLearned) {
+TEST(Residuals, LearnsDeviationsOfWristsFromTheMostLikelyTrajectory) {
   const std::vector<ResidualSpan> spans = spans_of(0.4f, 60);
   ASSERT_GT(spans.size(), 50u);
   const auto model = std::make_shared<const ResidualModel>(learn_residuals(spans));
@@ -100,7 +100,7 @@ TEST(Residuals, WhatWristsDoBeyondTheLikeliestWayIsLearned) {
   EXPECT_LT(other.error(other.made(model)), 0.5f * other.error(other.kriged));
 }
 
-TEST(Residuals, NothingIsKeptWhereNothingIsToBeLearned) {
+TEST(Residuals, WithoutDeviationsNothingIsStored) {
   const std::vector<ResidualSpan> spans = spans_of(0, 40);
   const ResidualModel model = learn_residuals(spans);
   EXPECT_FALSE(wins(model));
@@ -110,7 +110,7 @@ TEST(Residuals, NothingIsKeptWhereNothingIsToBeLearned) {
   EXPECT_TRUE(few.centres.empty());
 }
 
-TEST(Residuals, ShortGapsAndUntaughtOnesAreTheLikeliestWayToTheBit) {
+TEST(Residuals, ShortGapsAndEmptyModelsGiveExactlyTheKrigedTrajectory) {
   const auto model = std::make_shared<const ResidualModel>(learn_residuals(spans_of(0.4f, 40)));
   const Bowed longer(5.5, 60, 0);
   EXPECT_TRUE(same(longer.made(nullptr), longer.kriged));
@@ -120,7 +120,7 @@ TEST(Residuals, ShortGapsAndUntaughtOnesAreTheLikeliestWayToTheBit) {
   EXPECT_TRUE(same(shorter.made(model), shorter.kriged));
 }
 
-TEST(Residuals, TurnWithTheBorders) {
+TEST(Residuals, RotateWithTheBorders) {
   const ResidualModel model = learn_residuals(spans_of(0.4f, 40));
   const Bowed bowed(3.1, 70, 0);
   ArmScratch arms;
@@ -133,7 +133,7 @@ TEST(Residuals, TurnWithTheBorders) {
   for (std::size_t i = 0; i < before.size(); ++i) EXPECT_LT((after[i] - turn * before[i]).norm(), 1e-5f);
 }
 
-TEST(Residuals, OfBordersFarBeyondAllThatIsKnownStayWithinReach) {
+TEST(Residuals, StayWithinReachFarOutsideTheTrainingData) {
   const ResidualModel model = learn_residuals(spans_of(0.4f, 40));
   const Bowed bowed(3.1, 70, 0);
   ArmScratch arms;
@@ -142,7 +142,7 @@ TEST(Residuals, OfBordersFarBeyondAllThatIsKnownStayWithinReach) {
   for (const Vector3f& bend : residual_of(model, sight)) EXPECT_LE(bend.norm(), 1.001f);
 }
 
-TEST(Residuals, AreReadAsTheyWereStored) {
+TEST(Residuals, RoundTripThroughStorage) {
   const ResidualModel model = learn_residuals(spans_of(0.4f, 40));
   ByteWriter out;
   encode(model, out);
@@ -159,7 +159,7 @@ TEST(Residuals, AreReadAsTheyWereStored) {
   }
 }
 
-TEST(Residuals, MovementsLieWithinTheMotionAndApart) {
+TEST(Residuals, MovementsAreInsideTheMotionAndDoNotOverlap) {
   const Motion motion = lively(1.3, {100, 1}, 1500);
   const JointGroups of = groups();
   ArmScratch scratch;

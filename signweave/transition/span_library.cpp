@@ -9,7 +9,7 @@
 namespace signweave {
 namespace {
 
-/// How one joint of a captured span strays from the kriged way, a frame each, between borders where it does not.
+/// Deviations of one joint of a captured span from the kriged trajectory, per frame; they are zero at the borders.
 class Strays {
  public:
   Strays(const Gap& gap, PosesView captured, const Motion& kriged)
@@ -21,8 +21,8 @@ class Strays {
     const Eigen::Quaternionf back = middle_of(gap_.left().rotations[joint], gap_.right().rotations[joint]).conjugate();
     for (std::int64_t frame = 0; frame < gap_.count; ++frame) {
       const Eigen::Quaternionf made = kriged_.pose(frame).rotations[joint];
-      // As signed, like the way that it is added to: chosen anew, a rotation half a turn from the middle would stray
-      // by a whole one.
+      // With the quaternion's sign of the trajectory that it is added to: otherwise a rotation half a turn from the
+      // middle would deviate by a whole turn.
       Eigen::Quaternionf real = captured_.pose(frame).rotations[joint];
       if (real.dot(made) < 0) real.coeffs() *= -1.0f;
       frames_[static_cast<std::size_t>(frame) + 1] = rotation_vector(back * real) - rotation_vector(back * made);
@@ -74,9 +74,9 @@ bool keep_span(std::size_t recording, const Gap& gap, PosesView captured, GapScr
   auto library = std::ranges::find_if(libraries, [&](const auto& one) { return is_of(*one, *gap.skeleton); });
   if (library != libraries.end() && (*library)->spans.size() >= kMostSpans) return false;
   Motion kriged;
-  // The skeleton is only counted here, and nobody keeps it.
+  // Only the skeleton's counts are used here, and no reference to it is stored.
   kriged.reset(std::shared_ptr<const Skeleton>(std::shared_ptr<const Skeleton>(), gap.skeleton), gap.rate, gap.count);
-  // Without spans it is the kriged way, unbounded: what strays are added to.
+  // Without spans this is the kriged trajectory without limits, to which deviations are added.
   static const TransitionModel kNoSpans;
   fill_recorded({.gap = gap, .model = kNoSpans, .scratch = scratch}, kriged.poses({0, gap.count}));
   CapturedSpan span;

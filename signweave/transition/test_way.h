@@ -1,6 +1,6 @@
 #pragma once
 
-// For tests: a small body whose joints turn as functions of time say, and gaps that are cut out of its motion.
+// For tests: a small body whose joints turn by given functions of time, and gaps cut out of its motion.
 
 #include <Eigen/Geometry>
 #include <cmath>
@@ -29,7 +29,7 @@ enum : std::size_t {
   kJoints
 };
 
-/// One that moves, and both arms.
+/// A body with a translated root and both arms.
 inline std::shared_ptr<const Skeleton> body(const char* hips = "Hips") {
   return std::make_shared<const Skeleton>(std::vector<Joint>{{hips, kNoJoint, {0, 1, 0}, true},
                                                              {"Chest", 0, {0, 0.3f, 0}, false},
@@ -58,18 +58,18 @@ inline JointGroups groups() {
 }
 
 using Turn = std::function<Eigen::Quaternionf(std::size_t joint, double seconds)>;
-using Place = std::function<Eigen::Vector3f(double seconds)>;
+using PositionAt = std::function<Eigen::Vector3f(double seconds)>;
 
 inline Eigen::Quaternionf about(const Eigen::Vector3f& axis, double angle) {
   return Eigen::Quaternionf(Eigen::AngleAxisf(static_cast<float>(angle), axis.normalized()));
 }
-/// An axis of a joint's own.
+/// A different axis for each joint.
 inline Eigen::Vector3f axis_of(std::size_t joint) {
   const auto j = static_cast<float>(joint);
   return Eigen::Vector3f(std::sin(1 + j), 0.7f, std::cos(2 * j)).normalized();
 }
 
-inline Motion motion_of(FrameRate rate, std::int64_t frames, const Turn& turn, const Place& place = {},
+inline Motion motion_of(FrameRate rate, std::int64_t frames, const Turn& turn, const PositionAt& place = {},
                         std::shared_ptr<const Skeleton> skeleton = body()) {
   Motion motion(std::move(skeleton), rate, frames);
   for (std::int64_t frame = 0; frame < frames; ++frame) {
@@ -83,7 +83,7 @@ inline Motion motion_of(FrameRate rate, std::int64_t frames, const Turn& turn, c
   return motion;
 }
 
-/// Smooth, and never the same twice; another one for each `seed`.
+/// A smooth motion that never repeats; different for each `seed`.
 inline Motion lively(double seed, FrameRate rate = {100, 1}, std::int64_t frames = 300,
                      std::shared_ptr<const Skeleton> skeleton = body()) {
   const auto turn = [seed](std::size_t joint, double t) {
@@ -97,7 +97,7 @@ inline Motion lively(double seed, FrameRate rate = {100, 1}, std::int64_t frames
   return motion_of(rate, frames, turn, place, std::move(skeleton));
 }
 
-/// A gap cut out of a motion, with so many frames on either side at most. Borrowed from all three.
+/// A gap cut out of a motion, with at most `context` frames on either side. Borrows from both arguments.
 inline Gap cut(const Motion& motion, const JointGroups& groups, FrameRange frames, std::int64_t context = 1 << 20) {
   return {.skeleton = &motion.skeleton(),
           .groups = &groups,
@@ -115,7 +115,7 @@ struct Filled {
     return rotations[static_cast<std::size_t>(frame) * joints + joint];
   }
 };
-/// What nobody fills stays as this.
+/// Initial value of frames; those that are not filled keep it.
 inline const Eigen::Quaternionf kUntouched{7, 7, 7, 7};
 
 inline Filled fill(const GapMethod& method, const Gap& gap, const TransitionModel& model, GapScratch& scratch,
@@ -133,7 +133,7 @@ inline Filled fill(const GapMethod& method, const Gap& gap, const TransitionMode
   return fill(method, gap, model, scratch, set);
 }
 
-/// Radians between two rotations, whatever their signs.
+/// Angle between two rotations in radians, independent of their signs.
 inline double angle(const Eigen::Quaternionf& a, const Eigen::Quaternionf& b) {
   return 2.0 * std::atan2((a.conjugate() * b).vec().cast<double>().norm(), std::abs(static_cast<double>(a.dot(b))));
 }
@@ -146,7 +146,7 @@ inline bool same_bits(const Filled& a, const Filled& b) {
   return same_bits(a.rotations, b.rotations) && same_bits(a.translations, b.translations);
 }
 
-/// The default model with captured spans, so that every method has something to do.
+/// The default model with captured spans, so that every method can be tested.
 inline std::shared_ptr<const TransitionModel> model_with_spans() {
   static const std::shared_ptr<const TransitionModel> model = [] {
     const JointGroups of = groups();
@@ -164,7 +164,7 @@ inline std::shared_ptr<const TransitionModel> model_with_spans() {
   return model;
 }
 
-/// All that borders tell goes on, and nothing is learned.
+/// A model without damping and without learned parameters.
 inline const TransitionModel& untaught() {
   static const TransitionModel model;
   return model;

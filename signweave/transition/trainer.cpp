@@ -17,15 +17,15 @@ using Matrix = Eigen::MatrixXd;
 using Vector = Eigen::VectorXd;
 
 constexpr auto kSize = static_cast<Eigen::Index>(kBendsOfKnot);
-/// Added to a span's error before it divides its weight: with it the sum of squares comes near the sum of errors, so
-/// that the few fastest spans do not decide. Metres. (ours)
+/// Added to a span's error before dividing its weight by it. The sum of squares then approximates the sum of errors, so
+/// that the few fastest spans do not dominate. Metres. (ours)
 constexpr double kErrorFloor = 0.01;
 /// The same for rotations, radians.
 constexpr double kAngleFloor = 0.02;
-/// How strongly numbers are held to 0, as a share of what they explain.
+/// Strength of the ridge penalty, relative to the explained variance.
 constexpr double kBendRidge = 0.3;
 
-/// Sums for how much of one thing goes on, or of two at once (least squares).
+/// Least-squares sums for the share that continues, of one or two quantities.
 struct Share {
   Eigen::Matrix2d power = Eigen::Matrix2d::Zero();
   Eigen::Vector2d explained = Eigen::Vector2d::Zero();
@@ -33,21 +33,21 @@ struct Share {
     power += weight * other.power;
     explained += weight * other.explained;
   }
-  /// In [0, 1.2]; 1 where nothing was seen.
+  /// The shares, in [0, 1.2]; 1 without data.
   Eigen::Vector2d solve() const {
-    constexpr double kPrior = 1e-3;  // a trifle of "as it is", so that a group without captures is left alone
+    constexpr double kPrior = 1e-3;  // a weak prior for 1, so that a group without data is unchanged
     const Eigen::Matrix2d all = power + kPrior * Eigen::Matrix2d::Identity();
     const Eigen::Vector2d share = all.ldlt().solve(Eigen::Vector2d(explained + Eigen::Vector2d::Constant(kPrior)));
     return share.cwiseMax(0.0).cwiseMin(1.2);
   }
 };
-/// Of the cubic's velocity, and of the quintic's velocity and acceleration.
+/// Shares for the cubic's velocity, and for the quintic's velocity and acceleration.
 struct Shares {
   Share cubic;
   Share quintic;
 };
 
-/// What the spans of one recording say: sums, so that those of several can be added.
+/// The sums over the spans of one recording; sums of several recordings can be added.
 struct Sums {
   std::size_t spans = 0;
   std::array<Matrix, kKnots.size()> normal;     ///< [knot]
@@ -74,7 +74,7 @@ struct Sums {
   }
 };
 
-/// The numbers that lead the wrists along the captured ways best.
+/// Finds the coefficients that best reproduce the captured wrist trajectories.
 void solve(const Sums& sums, TransitionModel& model) {
   const auto knots = static_cast<Eigen::Index>(kKnots.size());
   Matrix normal = Matrix::Zero(knots * kSize, knots * kSize);
@@ -117,7 +117,7 @@ struct TransitionTrainer::State {
   std::map<std::size_t, Sums> sums;  ///< [recording]
   std::vector<std::shared_ptr<SpanLibrary>> libraries;
   std::vector<ResidualSpan> residuals;
-  mutable bool given_out = false;  ///< a model has these libraries: they must stay as they are
+  mutable bool given_out = false;  ///< a model uses these libraries, so they must not change
   GapScratch scratch;
   Motion made;
   ModelPose pose;
@@ -127,8 +127,8 @@ struct TransitionTrainer::State {
   std::shared_ptr<const TransitionModel> model(std::optional<std::size_t> left_out) const;
 };
 
-/// The wrist's error, to first order in the bends of all joints above it, is what is made small: errors of single
-/// joints, which make up for each other, would not. (ours)
+/// Minimizes the wrist's error, to first order in the bends of all joints above it, because errors of single joints can
+/// compensate each other. (ours)
 void TransitionTrainer::State::learn_bends(Sums& into, const Gap& gap, PosesView captured) {
   const GapTime time(gap);
   const BetweenKnots knots = between_knots(time.seconds());
@@ -176,10 +176,11 @@ void TransitionTrainer::State::learn_bends(Sums& into, const Gap& gap, PosesView
         if (role == JointRole::other || role == JointRole::finger) continue;
         const Eigen::Vector3f lever = place - pose.positions[joint];
         for (std::size_t trait = 0; trait < kTraits; ++trait) {
-          const Eigen::Vector3d way = (pose.rotations[joint] * traits[i][trait]).cross(lever).template cast<double>();
+          const Eigen::Vector3d displacement =
+              (pose.rotations[joint] * traits[i][trait]).cross(lever).template cast<double>();
           for (std::size_t bend = 0; bend < kBends; ++bend) {
             const std::size_t at = ((static_cast<std::size_t>(role) - 1) * kBends + bend) * kTraits + trait;
-            row.col(static_cast<Eigen::Index>(at)) += bends[bend] * way;
+            row.col(static_cast<Eigen::Index>(at)) += bends[bend] * displacement;
           }
         }
       }
@@ -193,7 +194,7 @@ void TransitionTrainer::State::learn_bends(Sums& into, const Gap& gap, PosesView
       normal.noalias() += row.transpose() * row;
       right.noalias() += row.transpose() * off;
     }
-    if (frames == 0) continue;  // the other hand may be sound
+    if (frames == 0) continue;  // the other hand may be valid
     const double weight = 1.0 / (error / frames + kErrorFloor) / frames;
     const double upper = knots.part;
     const double lower = 1 - upper;
@@ -205,7 +206,7 @@ void TransitionTrainer::State::learn_bends(Sums& into, const Gap& gap, PosesView
   }
 }
 
-/// How much of the borders' velocities goes on in a cubic, and of their accelerations in a quintic.
+/// Learns the share of the borders' velocities that continues in a cubic, and of their accelerations in a quintic.
 void TransitionTrainer::State::learn_damping(Sums& into, const Gap& gap, PosesView captured) {
   const GapTime time(gap);
   const BetweenKnots knots = between_knots(time.seconds());
@@ -225,7 +226,7 @@ void TransitionTrainer::State::learn_damping(Sums& into, const Gap& gap, PosesVi
       Eigen::Quaternionf q = captured.pose(frame).rotations[joint];
       if (last.dot(q) < 0) q.coeffs() *= -1.0f;
       last = q;
-      const Eigen::Vector3f way = rotation_vector(back * q);
+      const Eigen::Vector3f rotation = rotation_vector(back * q);
       const auto t = static_cast<float>(time.at(frame));
       const float t2 = t * t;
       const float t3 = t2 * t;
@@ -240,15 +241,15 @@ void TransitionTrainer::State::learn_damping(Sums& into, const Gap& gap, PosesVi
                                     ((0.5f * t2 - 1.5f * t3 + 1.5f * t4 - 0.5f * t5) * before.acceleration +
                                      (0.5f * t3 - t4 + 0.5f * t5) * after.acceleration);
       shares.cubic.power(0, 0) += speed.squaredNorm();
-      shares.cubic.explained[0] += speed.dot(way - cubic);
+      shares.cubic.explained[0] += speed.dot(rotation - cubic);
       shares.quintic.power(0, 0) += fast.squaredNorm();
       shares.quintic.power(0, 1) += fast.dot(force);
       shares.quintic.power(1, 0) += fast.dot(force);
       shares.quintic.power(1, 1) += force.squaredNorm();
-      shares.quintic.explained += Eigen::Vector2d(fast.dot(way - straight), force.dot(way - straight));
-      error += (way - cubic - speed).norm();
+      shares.quintic.explained += Eigen::Vector2d(fast.dot(rotation - straight), force.dot(rotation - straight));
+      error += (rotation - cubic - speed).norm();
     }
-    if (!std::isfinite(error)) continue;  // the other joints may be sound
+    if (!std::isfinite(error)) continue;  // the other joints may be valid
     const auto frames = static_cast<double>(gap.count);
     const double weight = 1.0 / (error / frames + kAngleFloor) / frames;
     const auto group = static_cast<std::size_t>(gap.groups->of[joint]);
@@ -287,7 +288,7 @@ TransitionTrainer& TransitionTrainer::operator=(TransitionTrainer&&) noexcept = 
 void TransitionTrainer::add(std::size_t recording, const Gap& gap, PosesView captured) {
   assert(captured.frames == gap.count);
   State& state = *state_;
-  // The skeleton is only counted here, and nobody keeps it.
+  // Only the skeleton's counts are used here, and no reference to it is stored.
   state.made.reset(std::shared_ptr<const Skeleton>(std::shared_ptr<const Skeleton>(), gap.skeleton), gap.rate,
                    gap.count);
   static const TransitionModel kUntaught;

@@ -1,4 +1,4 @@
-// What is learned from captured spans, and which of them are kept.
+// Tests of what is learned from captured spans, and which of them are stored.
 
 #include <gtest/gtest.h>
 
@@ -20,7 +20,7 @@ void add(TransitionTrainer& trainer, std::size_t recording, const Motion& motion
   const JointGroups of = groups();
   trainer.add(recording, cut(motion, of, frames), view_of(motion, frames));
 }
-/// Spans of all the lengths that numbers are learned for.
+/// Adds spans of all lengths for which values are learned.
 void add_spans(TransitionTrainer& trainer, std::size_t recording, const Motion& motion) {
   for (const std::int64_t count : {17, 28, 52, 73, 106}) {
     for (std::int64_t begin = 40; begin + count + 40 < motion.frame_count(); begin += 50) {
@@ -37,9 +37,9 @@ double error_of(const Filled& made, const Motion& motion, FrameRange frames, std
   return error / static_cast<double>(frames.size());
 }
 
-TEST(Trainer, WhatIsLeftOutIsNotLookedAt) {
+TEST(Trainer, LeftOutRecordingsAreNotUsed) {
   const Motion tested = lively(0.2);
-  const Motion other = lively(3.9);  // another movement under the same number
+  const Motion other = lively(3.9);  // another movement with the same recording number
   TransitionTrainer a;
   TransitionTrainer b;
   for (TransitionTrainer* trainer : {&a, &b}) {
@@ -62,7 +62,7 @@ TEST(Trainer, WhatIsLeftOutIsNotLookedAt) {
   }
 }
 
-TEST(Trainer, OnCubicWaysAllOfTheVelocityGoesOn) {
+TEST(Trainer, OnCubicsTheWholeVelocityContinues) {
   TransitionTrainer trainer;
   for (int seed = 0; seed < 6; ++seed) {
     const Motion motion = motion_of({100, 1}, 300, [seed](std::size_t joint, double t) {
@@ -78,13 +78,13 @@ TEST(Trainer, OnCubicWaysAllOfTheVelocityGoesOn) {
       EXPECT_NEAR(shares[static_cast<std::size_t>(Damped::velocity)], 1, 0.03);
       EXPECT_NEAR(shares[static_cast<std::size_t>(Damped::quintic_velocity)], 1, 0.05);
     }
-    // Nothing was seen of it: it is left as it was.
+    // No data: it is unchanged.
     EXPECT_FLOAT_EQ(knot[static_cast<std::size_t>(JointGroup::right_fingers)][0], 1);
   }
 }
 
-TEST(Trainer, WhereWaysGoFromRestToRestNoVelocityGoesOn) {
-  // Beside the gap everything trembles at random speeds; in it all goes as the cubic from rest to rest does.
+TEST(Trainer, BetweenRestsNoVelocityContinues) {
+  // Next to the gap all joints tremble at random speeds; inside they follow the cubic from rest to rest.
   TransitionTrainer trainer;
   const FrameRange gap{100, 150};
   for (int seed = 0; seed < 12; ++seed) {
@@ -105,15 +105,15 @@ TEST(Trainer, WhereWaysGoFromRestToRestNoVelocityGoesOn) {
   EXPECT_LT(damping_of(*model, Damped::quintic_velocity, JointGroup::left_arm, 0.51), 0.1f);
 }
 
-/// From pose to pose, and in the second half of each way ahead of time, always in the same manner.
+/// From pose to pose, with every movement bent in the same manner.
 Motion bending(double seed, double bend) {
   return motion_of({100, 1}, 620, [seed, bend](std::size_t joint, double t) {
     const auto pose = [&](double i) { return 0.6 * std::sin(2.7 * i + seed + static_cast<double>(joint)); };
     const double i = std::floor(t);
     const double x = std::clamp((t - i - 0.3) / 0.51, 0.0, 1.0);  // rests from 0.81 to 1.3
-    const double way = x * x * (3 - 2 * x) + bend * 16 * x * x * (1 - x) * (1 - x);
+    const double progress = x * x * (3 - 2 * x) + bend * 16 * x * x * (1 - x) * (1 - x);
     const bool arm = joint == kUpper || joint == kFore || joint == kRightUpper || joint == kRightFore;
-    return about(axis_of(joint), arm ? pose(i) + way * (pose(i + 1) - pose(i)) : 0.0);
+    return about(axis_of(joint), arm ? pose(i) + progress * (pose(i + 1) - pose(i)) : 0.0);
   });
 }
 /// The gap from rest to rest in the i-th second.
@@ -121,7 +121,7 @@ FrameRange gap_in(int i) {
   return {100 * i + 31, 100 * i + 81};
 }
 
-TEST(Trainer, WaysThatBendAreBentInWhatWasNotSeen) {
+TEST(Trainer, LearnedBendsApplyToUnseenMotion) {
   TransitionTrainer trainer;
   for (std::size_t recording = 0; recording < 5; ++recording) {
     const Motion motion = bending(0.7 * static_cast<double>(recording), 0.2);
@@ -144,7 +144,7 @@ TEST(Trainer, WaysThatBendAreBentInWhatWasNotSeen) {
   }
 }
 
-TEST(Trainer, NoNumbersInOneJointSpoilNoOther) {
+TEST(Trainer, NonFiniteValuesInOneJointAffectNoOther) {
   TransitionTrainer sound;
   TransitionTrainer broken;
   for (std::size_t recording = 0; recording < 3; ++recording) {
@@ -161,7 +161,7 @@ TEST(Trainer, NoNumbersInOneJointSpoilNoOther) {
     for (const float one : bends) ASSERT_TRUE(std::isfinite(one));
   }
   for (std::size_t knot = 0; knot < kKnots.size(); ++knot) {
-    const auto arm = static_cast<std::size_t>(JointGroup::left_arm);  // its joints come after the head
+    const auto arm = static_cast<std::size_t>(JointGroup::left_arm);  // its joints follow the head
     EXPECT_EQ(model->damping[knot][arm], sound.model()->damping[knot][arm]);
     for (const auto& group : model->damping[knot]) {
       for (const float one : group) ASSERT_TRUE(std::isfinite(one));
@@ -169,7 +169,7 @@ TEST(Trainer, NoNumbersInOneJointSpoilNoOther) {
   }
 }
 
-TEST(Trainer, AModelOutlivesItAndStaysAsItWas) {
+TEST(Trainer, AModelOutlivesItAndIsImmutable) {
   auto trainer = std::make_unique<TransitionTrainer>();
   add(*trainer, 0, lively(0.1), {100, 140});
   const auto model = trainer->model();
@@ -186,7 +186,7 @@ TEST(Trainer, AModelOutlivesItAndStaysAsItWas) {
   EXPECT_TRUE(same_bits(fill(known_method("recorded"), gap, *model), made));
 }
 
-TEST(SpanLibrary, GivesBackASpanThatIsInIt) {
+TEST(SpanLibrary, ReproducesASpanOfTheLibrary) {
   const JointGroups of = groups();
   const Motion motion = lively(8.1);
   for (const FrameRange frames : {FrameRange{60, 80}, FrameRange{100, 150}}) {
@@ -204,7 +204,7 @@ TEST(SpanLibrary, GivesBackASpanThatIsInIt) {
   }
 }
 
-TEST(SpanLibrary, IsNotLookedAtForAPurgedRecording) {
+TEST(SpanLibrary, IgnoresSpansOfAPurgedRecording) {
   const JointGroups of = groups();
   const Motion motion = lively(8.1);
   TransitionTrainer trainer;
@@ -216,8 +216,8 @@ TEST(SpanLibrary, IsNotLookedAtForAPurgedRecording) {
       same_bits(fill(known_method("recorded"), gap, *trainer.model()), fill(known_method("kriging"), gap, untaught())));
 }
 
-TEST(SpanLibrary, IsOfOneSkeleton) {
-  // As many joints, but others: vectors in their axes mean something else.
+TEST(SpanLibrary, MatchesOneSkeletonOnly) {
+  // The same number of joints, but different ones, whose axes are not comparable.
   const JointGroups of = groups();
   const Motion motion = lively(8.1);
   const Motion other = lively(8.1, {100, 1}, 300, body("Pelvis"));
@@ -229,7 +229,7 @@ TEST(SpanLibrary, IsOfOneSkeleton) {
   EXPECT_EQ(collector.take_model()->libraries.size(), 0u);
 }
 
-TEST(SpanLibrary, KeepsNoSpanWhoseNumbersAreNone) {
+TEST(SpanLibrary, SkipsNonFiniteSpans) {
   const JointGroups of = groups();
   Motion motion = lively(8.1);
   motion.pose(120).rotations[kFinger].coeffs().setConstant(std::numeric_limits<float>::quiet_NaN());
@@ -238,8 +238,9 @@ TEST(SpanLibrary, KeepsNoSpanWhoseNumbersAreNone) {
   EXPECT_TRUE(collector.add(cut(motion, of, {160, 200}), view_of(motion, {160, 200})));
 }
 
-TEST(SpanLibrary, AWayThatGoesOverHalfATurnStraysSmoothly) {
-  // It goes round by more than half a turn from the middle of its borders, where a sign chosen anew makes a leap.
+TEST(SpanLibrary, DeviationsBeyondHalfATurnAreSmooth) {
+  // It rotates by more than half a turn from the middle of its borders, where choosing the sign again would cause a
+  // jump.
   const auto turn = [](std::size_t joint, double t) { return about(axis_of(joint), 10.5 * std::sin(3 * (t - 1.25))); };
   const Motion motion = motion_of({100, 1}, 300, turn);
   const JointGroups of = groups();

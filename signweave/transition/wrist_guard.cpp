@@ -10,7 +10,7 @@ namespace {
 
 using Eigen::Vector3f;
 
-/// How far from the nearest limit a bend is, as it is and if it goes on by so much. Radians.
+/// True if a bend stays within the limits even if it increases by `farther` radians.
 bool within(const WristBend& bend, float farther, const WristLimits& limits) {
   return bend.flexion + farther < limits.flexion.freely && -bend.flexion + farther < limits.extension.freely &&
          bend.deviation + farther < limits.radial.freely && -bend.deviation + farther < limits.ulnar.freely;
@@ -26,7 +26,7 @@ void WristGuard::begin(BodyScene& scene, Side side) {
   const std::array<std::int64_t, 2> borders{-1, scene.count()};
   std::array<HandAxes, 2> axes;
   for (std::size_t i = 0; i < 2; ++i) axes[i] = axes_of(scene.hand(side, borders[i]), side);
-  // Where the bones of the palm move, the hand's axes are those between both borders.
+  // If the bones of the palm move, the hand's axes are the mean of both borders.
   axes_.fingers = (axes[0].fingers + axes[1].fingers).normalized();
   const Vector3f palm = axes[0].palm + axes[1].palm;
   axes_.palm = (palm - palm.dot(axes_.fingers) * axes_.fingers).normalized();
@@ -61,7 +61,7 @@ bool WristGuard::limit_all(const BodyScene& scene, const Gap& gap) const {
     const std::int64_t end = std::min(begin + stride, gap.count);
     const WristBend after = bend_at(scene, end);
     const float turned = std::hypot(after.flexion - before.flexion, after.deviation - before.deviation);
-    // A border may lie at its limit, and nothing beside it goes farther, where the wrist hardly moves.
+    // A border may be at its limit without anything next to it exceeding it, if the wrist hardly moves.
     const bool far = within(before, turned, *limits_) && within(after, turned, *limits_);
     for (std::int64_t frame = begin + 1; frame <= std::min(end, gap.count - 1); ++frame) {
       if (!far) limited |= limit(scene, frame);

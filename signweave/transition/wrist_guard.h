@@ -7,15 +7,15 @@
 
 namespace signweave {
 
-/// Keeps one wrist within what people's wrists do, each frame by itself and so that what is smooth stays smooth (see
-/// WristLimits). A bend that both borders of a gap allow is left as it is.
+/// Keeps one wrist within human limits, frame by frame, such that smooth motion stays smooth (see WristLimits). A bend
+/// within the range of the gap's borders is left as it is.
 class WristGuard {
  public:
-  /// The limits of one gap, as its borders widen them. A hand without fingers has none: nothing is limited.
+  /// Sets the limits for one gap, widened by its borders. A hand without fingers has no limits.
   void begin(BodyScene& scene, Side side);
-  /// Turns the hand of one made frame back; returns whether it was bent too far.
+  /// Turns the hand of one generated frame back. Returns true if it was bent too far.
   bool limit(const BodyScene& scene, std::int64_t frame) const;
-  /// The same for every frame of a gap; those between two frames that are far from every limit are not examined.
+  /// The same for every frame of a gap; frames between two that are far from every limit are not examined.
   bool limit_all(const BodyScene& scene, const Gap& gap) const;
 
  private:
@@ -24,7 +24,7 @@ class WristGuard {
   Side side_ = Side::left;
   JointIndex wrist_ = kNoJoint;
   std::optional<WristLimits> limits_;
-  HandAxes axes_{};  ///< in the space of the wrist's joint
+  HandAxes axes_{};  ///< in the space of the wrist joint
 };
 
 }  // namespace signweave

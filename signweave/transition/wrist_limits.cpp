@@ -10,7 +10,7 @@ namespace signweave {
 namespace {
 
 constexpr float kDegree = std::numbers::pi_v<float> / 180;
-/// What a border that is past the limits leaves to go on. Radians.
+/// Additional bend allowed beyond a border that exceeds the limits. Radians.
 constexpr float kBeyondBorder = 5 * kDegree;
 
 float limited(float bend, const BendLimit& limit) {
@@ -28,9 +28,9 @@ void widen(BendLimit& limit, float border) {
 }  // namespace
 
 WristLimits human_wrist() noexcept {
-  // Freely as far as men of 18 to 54 years in the mean: 76°, 75°, 22° and 36° (D. C. Boone and S. P. Azen, Normal range
-  // of motion of joints in male subjects, J. Bone Joint Surg. 61-A, 1979). At most 13° and 8° farther (ours): women of
-  // 18 to 59 years reach 93°, 86°, 18° and 41° in the mean (Macedo and Magee).
+  // Free up to the mean of men of 18 to 54 years: 76°, 75°, 22° and 36° (D. C. Boone and S. P. Azen, Normal range of
+  // motion of joints in male subjects, J. Bone Joint Surg. 61-A, 1979). At most 13° and 8° beyond (ours): women of 18
+  // to 59 years reach 93°, 86°, 18° and 41° on average (Macedo and Magee).
   return {.flexion = {76 * kDegree, 89 * kDegree},
           .extension = {75 * kDegree, 88 * kDegree},
           .radial = {22 * kDegree, 30 * kDegree},

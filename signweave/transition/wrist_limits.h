@@ -6,22 +6,23 @@
 
 namespace signweave {
 
-/// How a wrist is bent: the turn from the forearm's direction to the hand's, seen in the hand's own axes. Radians.
+/// The bend of a wrist: the rotation from the forearm's direction to the hand's, in the hand's axes. Radians.
 struct WristBend {
-  float flexion = 0;    ///< to the palm; below 0 extension
-  float deviation = 0;  ///< to the thumb's side (radial); below 0 to the little finger's (ulnar)
+  float flexion = 0;    ///< towards the palm; negative: extension
+  float deviation = 0;  ///< towards the thumb (radial); negative: towards the little finger (ulnar)
 };
-/// `forearm` is the unit direction from elbow to wrist, in the space of the axes. Twist does not bend.
+/// `forearm` is the unit direction from elbow to wrist, in the space of the axes. Twist does not count as bend.
 WristBend wrist_bend(const Eigen::Vector3f& forearm, const HandAxes& hand) noexcept;
 
-/// One way in which a wrist bends: as it is up to `freely`, then ever less of what more is asked for, never `most`.
+/// Limit of one direction of bend: unchanged up to `freely`, then a diminishing share of the excess, never reaching
+/// `most`.
 struct BendLimit {
   float freely = 0;  ///< radians
   float most = 0;    ///< radians, above `freely`
 };
 
-/// How far wrists bend: freely as far as those of men do in the mean (Boone and Azen 1979: 76°, 75°, 22°, 36°; the
-/// norms of the AAOS are 80°, 70°, 20°, 30°), and never more than 13°, to the sides 8°, farther (ours).
+/// Limits of wrists: free up to the mean range of men (Boone and Azen 1979: 76°, 75°, 22°, 36°; the norms of the AAOS
+/// are 80°, 70°, 20°, 30°), and never more than 13° beyond, to the sides 8° (ours).
 struct WristLimits {
   BendLimit flexion;
   BendLimit extension;
@@ -30,14 +31,14 @@ struct WristLimits {
 };
 WristLimits human_wrist() noexcept;
 
-/// The same limits for a gap between captured borders: where one is bent farther, that is free, and a little more.
+/// Limits for a gap next to a captured border: if the border is bent farther, its bend and a little more is free.
 WristLimits widened(WristLimits limits, const WristBend& border) noexcept;
 
-/// The bend as far as it is allowed; level with the one given where that leaves `freely`, so what is smooth stays so.
+/// The bend reduced to its limits; the reduction starts with zero slope at `freely`, so smooth motion stays smooth.
 WristBend limited(const WristBend& bend, const WristLimits& limits) noexcept;
 
-/// The turn of the hand, in the space of its axes and before its own rotation (hand · turn), that takes it from the
-/// bend that `forearm` has to one within the limits; none where nothing is to be turned: false.
+/// Computes the rotation of the hand, in the space of its axes and applied first (hand · turn), that brings the bend
+/// for `forearm` within the limits. Returns false if no rotation is needed.
 bool turn_within(const WristLimits& limits, const Eigen::Vector3f& forearm, const HandAxes& hand,
                  Eigen::Quaternionf& turn) noexcept;
 

@@ -21,7 +21,7 @@ float arbitrary_degrees(int from, int to) {
   return kOneDegree * static_cast<float>(*rc::gen::inRange(10 * from, 10 * to)) / 10;
 }
 
-TEST(WristBend, IsFlexionToThePalmAndDeviationToTheThumbOnBothSides) {
+TEST(WristBend, FlexionIsTowardsThePalmAndDeviationTowardsTheThumb) {
   const auto skeleton = whole_person();
   const RigMap rig = rig_of_signer(*skeleton);
   for (const Side side : kSides) {
@@ -36,7 +36,7 @@ TEST(WristBend, IsFlexionToThePalmAndDeviationToTheThumbOnBothSides) {
       const Vector3f elbow = position_of(rig[of(side, Part::left_forearm)], model);
       return wrist_bend((points.wrist - elbow).normalized(), axes_of(points, side));
     };
-    // The test person's palms look down, the thumbs forward, the fingers along x.
+    // The test person's palms face down, the thumbs forwards, the fingers along x.
     const WristBend straight = bend_after(Quaternionf::Identity());
     EXPECT_NEAR(straight.flexion, 0, 0.01f);
     EXPECT_NEAR(straight.deviation, 0, 0.01f);
@@ -61,7 +61,7 @@ RC_GTEST_PROP(WristLimits, KeepWhatIsWithinAndBendTheRestSmoothly, ()) {
   if (bend.flexion < 0) holds(-bend.flexion, -kept.flexion, limits.extension);
   if (bend.deviation > 0) holds(bend.deviation, kept.deviation, limits.radial);
   if (bend.deviation < 0) holds(-bend.deviation, -kept.deviation, limits.ulnar);
-  // Level: a thousandth more is asked for, and no more than that is given, and nearly all of it where the limit begins.
+  // Slope: of an increase by a thousandth, at most that is given, and nearly all of it where the limit begins.
   const float edge = limits.ulnar.freely + 1e-3f;
   RC_ASSERT(std::abs(-limited({0, -edge}, limits).deviation - edge) < 1e-5f);
   const WristBend next = limited({bend.flexion + 1e-3f, bend.deviation}, limits);
@@ -72,7 +72,7 @@ RC_GTEST_PROP(WristLimits, KeepWhatIsWithinAndBendTheRestSmoothly, ()) {
 RC_GTEST_PROP(WristLimits, TurnTheHandToTheBendThatIsAllowed, ()) {
   const Side side = *rc::gen::element(Side::left, Side::right);
   const WristBend bend{arbitrary_degrees(-110, 110), arbitrary_degrees(-110, 110)};
-  // A hand that lies anyhow, and the forearm that makes it bent so.
+  // A hand in an arbitrary orientation, and the forearm that gives it this bend.
   const Quaternionf lies = Quaternionf(AngleAxisf(arbitrary_degrees(-180, 180), Vector3f(0.6f, 0, 0.8f))) *
                            Quaternionf(AngleAxisf(arbitrary_degrees(-180, 180), Vector3f::UnitY()));
   const float s = side == Side::left ? 1.0f : -1.0f;
@@ -90,13 +90,13 @@ RC_GTEST_PROP(WristLimits, TurnTheHandToTheBendThatIsAllowed, ()) {
     RC_ASSERT(std::abs(wanted.flexion - bend.flexion) + std::abs(wanted.deviation - bend.deviation) < 1e-3f);
     return;
   }
-  // Seen from the hand that was turned, the forearm has the bend that is allowed.
+  // Relative to the rotated hand, the forearm has the allowed bend.
   const WristBend is = wrist_bend(turn.conjugate() * forearm, hand);
   RC_ASSERT(std::abs(is.flexion - wanted.flexion) < 2e-3f);
   RC_ASSERT(std::abs(is.deviation - wanted.deviation) < 2e-3f);
 }
 
-TEST(WristLimits, ABorderThatIsBentFartherMayGoOn) {
+TEST(WristLimits, ABorderBeyondTheLimitsWidensThem) {
   const WristLimits wide = widened(human_wrist(), {.flexion = -1.0f, .deviation = -70 * kOneDegree});
   EXPECT_FLOAT_EQ(wide.ulnar.freely, 70 * kOneDegree);
   EXPECT_FLOAT_EQ(wide.ulnar.most, 75 * kOneDegree);

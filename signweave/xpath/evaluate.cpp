@@ -20,7 +20,7 @@
 namespace signweave::xpath {
 namespace {
 
-constexpr std::size_t kMostBytes = std::size_t{1} << 28;  // of one document's answers
+constexpr std::size_t kMostBytes = std::size_t{1} << 28;  // limit of one document's answers
 
 template <auto free>
 struct Free {
@@ -34,9 +34,9 @@ using Compiled = std::unique_ptr<xmlXPathCompExpr, Free<xmlXPathFreeCompExpr>>;
 using Object = std::unique_ptr<xmlXPathObject, Free<xmlXPathFreeObject>>;
 using Buffer = std::unique_ptr<xmlBuffer, Free<xmlBufferFree>>;
 
-/// The first thing that libxml2 found wrong.
+/// The first error that libxml2 reported.
 struct Fault {
-  int code = 0;  ///< of xmlXPathError
+  int code = 0;  ///< an xmlXPathError
   std::size_t offset = 0;
 };
 
@@ -60,20 +60,20 @@ std::string words_for(int code) {
     case XPATH_UNCLOSED_ERROR:
       return "a bracket is not closed; add it";
     case XPATH_INVALID_TYPE:
-      return "a value of this kind cannot stand here: what is counted, summed, joined by '|' or walked on from must be "
+      return "a value of this kind is not allowed here: the operand of count(), sum(), '|' or a path must be "
              "nodes";
     case XPATH_INVALID_OPERAND:
       return "an operand is missing or of the wrong kind; correct it";
     case XPATH_INVALID_ARITY:
       return "a function has too many or too few arguments; correct their number";
     case XPATH_UNDEF_PREFIX_ERROR:
-      return "a prefix that stands for no namespace; only 'xsi' and 'xml' do here";
+      return "a prefix without a namespace; only 'xsi' and 'xml' have one here";
     case XPATH_RECURSION_LIMIT_EXCEEDED:
-      return "the expression is nested too deep; ask for less";
+      return "the expression is nested too deeply; simplify it";
     case XPATH_STACK_ERROR:
-      return "the expression is not complete; add what is missing";
+      return "the expression is incomplete; add the missing part";
     default:
-      return "this is no XPath 1.0 expression";
+      return "this is not an XPath 1.0 expression";
   }
 }
 
@@ -103,11 +103,11 @@ Compiled compile(const std::string& text, xmlXPathContext* context, Fault& fault
   return compiled;
 }
 
-/// Stops an evaluation when its time is over: libxml2 looks at its limit of operations at every step, and there it is
-/// taken away. The word is aligned and written whole; whoever reads it a step later stops a step later.
-class Watch {
+/// Stops an evaluation at its deadline: libxml2 checks its limit of operations at every step, and this lowers the
+/// limit. The word is aligned and written atomically; a step that reads the old value is followed by one that stops.
+class DeadlineGuard {
  public:
-  Watch(xmlXPathContext& context, std::optional<std::chrono::steady_clock::time_point> deadline) {
+  DeadlineGuard(xmlXPathContext& context, std::optional<std::chrono::steady_clock::time_point> deadline) {
     context.opLimit = std::numeric_limits<unsigned long>::max();
     if (!deadline) return;
     thread_ = std::thread([this, &context, at = *deadline] {
@@ -116,7 +116,7 @@ class Watch {
       std::atomic_ref(context.opLimit).store(1, std::memory_order_relaxed);
     });
   }
-  ~Watch() {
+  ~DeadlineGuard() {
     {
       const std::lock_guard lock(mutex_);
       over_ = true;
@@ -124,8 +124,8 @@ class Watch {
     ended_.notify_all();
     if (thread_.joinable()) thread_.join();
   }
-  Watch(const Watch&) = delete;
-  Watch& operator=(const Watch&) = delete;
+  DeadlineGuard(const DeadlineGuard&) = delete;
+  DeadlineGuard& operator=(const DeadlineGuard&) = delete;
 
  private:
   std::mutex mutex_;
@@ -213,11 +213,11 @@ std::vector<Value> values_of(xmlXPathObject& object, const EvaluateLimits& limit
       bytes += values.back().value.size() + values.back().xml.size();
       if (bytes > kMostBytes) {
         throw Error(ErrorCode::unsupported,
-                    "xpath: the answers of one document take more than 256 MiB; ask for less, "
+                    "xpath: the answers of one document exceed 256 MiB; request less, "
                     "such as their count()");
       }
       if (limits.deadline && i % 64 == 0 && std::chrono::steady_clock::now() >= *limits.deadline) {
-        throw Error(ErrorCode::cancelled, "xpath: took longer than it may; ask for less or give it more time");
+        throw Error(ErrorCode::cancelled, "xpath: took longer than allowed; request less or allow more time");
       }
     }
     return values;
@@ -244,7 +244,7 @@ std::vector<Value> evaluate(const Expression& expression, const std::string& nam
                             const EvaluateLimits& limits) {
   const auto over = [&] { return limits.deadline && std::chrono::steady_clock::now() >= *limits.deadline; };
   const auto cancel = [] {
-    throw Error(ErrorCode::cancelled, "xpath: took longer than it may; ask for less or give it more time");
+    throw Error(ErrorCode::cancelled, "xpath: took longer than allowed; request less or allow more time");
   };
   const auto alive = [&] {
     if (over()) cancel();
@@ -259,7 +259,7 @@ std::vector<Value> evaluate(const Expression& expression, const std::string& nam
   const Compiled compiled = compile(expression.text(), context.get(), fault);
   Object object;
   {
-    const Watch watch(*context, limits.deadline);
+    const DeadlineGuard deadline_guard(*context, limits.deadline);
     object.reset(xmlXPathCompiledEval(compiled.get(), context.get()));
   }
   if (fault.code == XPATH_OP_LIMIT_EXCEEDED || over()) cancel();

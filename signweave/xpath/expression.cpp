@@ -64,7 +64,7 @@ bool is_node_test(std::string_view word) {
 
 void check(std::string_view text, const std::vector<Token>& tokens) {
   if (tokens.empty()) fail(text, 0, "there is no expression; write one such as //ANNOTATION_VALUE");
-  if (tokens.size() > kMostTokens) fail(text, tokens[kMostTokens].offset, "the expression is too long; ask for less");
+  if (tokens.size() > kMostTokens) fail(text, tokens[kMostTokens].offset, "the expression is too long; shorten it");
   std::vector<const Token*> open;
   for (std::size_t i = 0; i < tokens.size(); ++i) {
     const Token& token = tokens[i];
@@ -73,12 +73,12 @@ void check(std::string_view text, const std::vector<Token>& tokens) {
     if (token.is("(") || token.is("[")) {
       open.push_back(&token);
       if (open.size() > kDeepest) {
-        fail(text, token.offset, fmt::format("more than {} levels of brackets; ask for less", kDeepest));
+        fail(text, token.offset, fmt::format("more than {} levels of brackets; simplify it", kDeepest));
       }
     } else if (token.is(")") || token.is("]")) {
       const std::string_view partner = token.is(")") ? "(" : "[";
       if (open.empty() || !open.back()->is(partner)) {
-        fail(text, token.offset, fmt::format("there is no '{}' that this closes; take it out", partner));
+        fail(text, token.offset, fmt::format("there is no '{}' that this closes; remove it", partner));
       }
       open.pop_back();
     } else if (token.is("$")) {
@@ -108,7 +108,7 @@ void check(std::string_view text, const std::vector<Token>& tokens) {
   }
 }
 
-/// Looks whether one tier, or one annotation, tells everything: its path begins with it, and nothing leads out of it.
+/// Checks whether one tier or one annotation is sufficient: the path begins with it, and nothing leads out of it.
 class ExcerptFinder {
  public:
   explicit ExcerptFinder(const std::vector<Token>& tokens) : tokens_(tokens), end_(tokens.size()) {}
@@ -127,7 +127,7 @@ class ExcerptFinder {
 
  private:
   struct Head {
-    std::array<std::string_view, 2> above;  ///< the elements around it, the outermost first
+    std::array<std::string_view, 2> above;  ///< the elements around it, outermost first
     std::string_view element;
     std::string_view attribute;
     semantic_db::ExcerptOf what;
@@ -137,7 +137,7 @@ class ExcerptFinder {
   bool name(std::size_t i) const { return i < end_ && tokens_[i].kind == Token::Kind::name; }
   bool name(std::size_t i, std::string_view text) const { return name(i) && tokens_[i].text == text; }
 
-  /// Where the bracket at `open` is closed.
+  /// The index of the bracket that closes the one at `open`.
   std::size_t closes(std::size_t open) const {
     std::size_t depth = 0;
     for (std::size_t i = open; i < tokens_.size(); ++i) {
@@ -177,7 +177,8 @@ class ExcerptFinder {
     return std::nullopt;
   }
 
-  /// The rest of the path: steps down with predicates that look down only. Whatever is not surely so is refused.
+  /// Whether the rest of the path consists of steps down with predicates that only use descendants. Any doubtful form
+  /// is rejected.
   bool stays_inside() const {
     std::size_t depth = 0;  // of predicates and calls
     for (std::size_t i = at_; i < end_; ++i) {
@@ -201,10 +202,10 @@ class ExcerptFinder {
           return false;
         }
       } else if (token.is("/") || token.is("//")) {
-        // A path from the document's root leads out of it; a relative one stands behind a step.
+        // A path from the document's root leads out of it; a relative path follows a step.
         if (depth > 0 && !ends_step(i - 1)) return false;
       } else if (depth == 0) {
-        // No operator beside steps: an operand of it could be anything.
+        // No operator next to steps: its other operand could be anything.
         const bool step =
             token.kind == Token::Kind::name ? !token.is_operator : token.is("@") || token.is(".") || token.is("*");
         if (!step || !begins_step(i)) return false;
@@ -222,7 +223,7 @@ class ExcerptFinder {
     return token.is("]") || token.is(")") || token.is(".");
   }
 
-  /// Outside of predicates: behind a slash, an axis or the '@' of an attribute.
+  /// Outside predicates: after a slash, an axis or the '@' of an attribute.
   bool begins_step(std::size_t i) const {
     if (i == at_) return false;
     const Token& before = tokens_[i - 1];
@@ -239,7 +240,7 @@ class ExcerptFinder {
 Expression::Expression(std::string text) : text_(std::move(text)) {
   if (text_.size() > kLongest) fail(text_.substr(0, 80), 0, "the expression is too long: at most 64 KiB");
   if (!is_utf8(text_) || text_.find('\0') != std::string::npos) {
-    fail(printable(text_), 0, "the expression is no UTF-8 text; write it again");
+    fail(printable(text_), 0, "the expression is not UTF-8; save or type it as UTF-8");
   }
   const std::vector<Token> tokens = tokens_of(text_);
   check(text_, tokens);

@@ -8,22 +8,21 @@
 /// XPath 1.0 over annotation documents (docs/xpath.md).
 namespace signweave::xpath {
 
-/// The part of a document that tells everything that an expression asks for.
+/// The part of a document that is sufficient to evaluate an expression.
 struct Excerpt {
   semantic_db::ExcerptOf what;
   std::string name;
   friend bool operator==(const Excerpt&, const Excerpt&) = default;
 };
 
-/// An expression that has been looked through: its words are XPath's, its functions are those that there are. Throws
-/// QueryError (query/parse.h), with a caret under the place and a hint, where they are not; for more than 64 KiB or 100
-/// levels of nesting, too.
+/// A checked expression: it uses only words and functions of XPath. Throws QueryError (query/parse.h), with a caret
+/// under the error and a hint, if it does not, and for more than 64 KiB or 100 levels of nesting.
 class Expression {
  public:
   explicit Expression(std::string text);
 
   const std::string& text() const noexcept { return text_; }
-  /// None where the whole document must be looked at.
+  /// nullopt if the whole document is needed.
   const std::optional<Excerpt>& excerpt() const noexcept { return excerpt_; }
 
  private:
@@ -31,13 +30,13 @@ class Expression {
   std::optional<Excerpt> excerpt_;
 };
 
-/// One thing that an expression gives: a node of the document, or a value.
+/// One result of an expression: a node of the document, or a value.
 struct Value {
   enum class Kind { document, element, attribute, text, comment, instruction, name_space, string, number, boolean };
   Kind kind = Kind::string;
-  std::string name;   ///< of an element or attribute, with its prefix
-  std::string value;  ///< as XPath's string() gives it
-  std::string xml;    ///< of a node, as XML; else as `value`
+  std::string name;   ///< for an element or attribute, with its prefix
+  std::string value;  ///< as XPath's string() returns it
+  std::string xml;    ///< for a node, its XML; else as `value`
   friend bool operator==(const Value&, const Value&) = default;
 };
 

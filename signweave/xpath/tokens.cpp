@@ -20,7 +20,7 @@ bool goes_on(char c) noexcept {
   return begins_name(c) || is_digit(c) || c == '-' || c == '.';
 }
 
-/// True where what follows is an operator and no name: behind a whole operand.
+/// Whether the next word is an operator rather than a name: it follows a complete operand.
 bool ends_operand(const Token& token) {
   if (token.kind != Token::Kind::symbol) return !token.is_operator;
   return token.is(")") || token.is("]") || token.is(".") || token.is("..") || token.is("*");
@@ -40,7 +40,7 @@ void fail(std::string_view expression, std::size_t offset, const std::string& wh
   const std::size_t begin = before.rfind('\n') == before.npos ? 0 : before.rfind('\n') + 1;
   std::string_view shown = expression.substr(begin, expression.find('\n', begin) - begin);
   const std::size_t column = letters(before.substr(begin));
-  constexpr std::size_t kMost = 200;  // a long line in part
+  constexpr std::size_t kMost = 200;  // a long line is cut
   std::string caret;
   if (shown.size() <= kMost) {
     caret = std::string(shown) + '\n' + std::string(column, ' ') + '^';
@@ -81,7 +81,7 @@ std::vector<Token> tokens_of(std::string_view text) {
     } else if (begins_name(c)) {
       std::size_t end = at;
       while (end < text.size() && goes_on(text[end])) ++end;
-      // A prefix and its name, or all names of a prefix, are one token.
+      // A prefix and its name, or a prefix with '*', are one token.
       if (end + 1 < text.size() && text[end] == ':' && (begins_name(text[end + 1]) || text[end + 1] == '*')) {
         const bool all = text[++end] == '*';
         if (all) ++end;
@@ -98,7 +98,7 @@ std::vector<Token> tokens_of(std::string_view text) {
       }
       if (size == 0 && kOne.find(c) != kOne.npos) size = 1;
       if (size == 0) {
-        fail(text, at, fmt::format("'{}' begins nothing that XPath knows; take it out", printable(text.substr(at, 1))));
+        fail(text, at, fmt::format("'{}' does not begin any XPath token; remove it", printable(text.substr(at, 1))));
       }
       add(Token::Kind::symbol, at, at + size);
       at += size;

@@ -12,7 +12,7 @@ Node* made(Node* node) {
   return node;
 }
 
-/// The namespace of a name's prefix, as far as it is declared; its name without the prefix then follows it.
+/// The namespace of a name's prefix if it is declared, and the name without the prefix; otherwise the whole name.
 struct Resolved {
   xmlNs* name_space = nullptr;
   const char* name = nullptr;
@@ -59,14 +59,14 @@ xmlNode* element(xmlDoc* tree, xmlNode* parent, pugi::xml_node from) {
 Tree tree_of(const eaf::Xml& xml, const std::function<void()>& alive) {
   Tree tree(made(xmlNewDoc(chars("1.0"))));
   xmlNode* parent = nullptr;
-  // Without recursion: a file may be as deep as it is long.
+  // Iterative: a file may be nested as deep as it is long.
   pugi::xml_node from = xml.document().first_child();
   for (std::size_t nodes = 0; from; ++nodes) {
     if (nodes % 1024 == 0) alive();
     xmlNode* node = nullptr;
     switch (from.type()) {
       case pugi::node_element:
-        // A second root, which XML does not have, is left out with what is in it.
+        // A second root, which XML does not allow, is omitted with its contents.
         if (parent != nullptr || xmlDocGetRootElement(tree.get()) == nullptr) {
           node = element(tree.get(), parent, from);
         }
@@ -85,7 +85,7 @@ Tree tree_of(const eaf::Xml& xml, const std::function<void()>& alive) {
         xmlAddChild(parent != nullptr ? parent : reinterpret_cast<xmlNode*>(tree.get()),
                     made(xmlNewDocPI(tree.get(), chars(from.name()), chars(from.value()))));
         break;
-      default:  // the XML declaration and a DOCTYPE are no nodes to XPath
+      default:  // the XML declaration and a DOCTYPE are not nodes in XPath
         break;
     }
     if (node != nullptr && from.first_child()) {

@@ -15,16 +15,16 @@ struct FreeTree {
 };
 using Tree = std::unique_ptr<xmlDoc, FreeTree>;
 
-/// A text as libxml2 takes it.
+/// A text as libxml2's character type.
 inline const xmlChar* chars(const char* text) noexcept {
   return reinterpret_cast<const xmlChar*>(text);
 }
 
 inline constexpr const char* kSchemaInstance = "http://www.w3.org/2001/XMLSchema-instance";
 
-/// Made node by node of what our own reader read, so that both see the same and libxml2's parser sees nothing: no
-/// encodings, no entities, no DTD. Neighbouring texts are one node, as XPath wants it; CDATA is text. `alive` is called
-/// now and then, and may throw.
+/// Builds the tree node by node from what our own reader read, so that both see the same document and libxml2's parser
+/// is not involved: no encodings, no entities, no DTD. Adjacent texts become one node, as XPath requires; CDATA is
+/// text. `alive` is called regularly and may throw.
 Tree tree_of(const eaf::Xml& xml, const std::function<void()>& alive);
 
 }  // namespace signweave::xpath

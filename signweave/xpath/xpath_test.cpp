@@ -36,11 +36,11 @@ std::vector<std::string> values(const std::string& expression) {
   return list;
 }
 
-TEST(XPath, NodesComeInTheOrderOfTheDocument) {
+TEST(XPath, NodesAreInDocumentOrder) {
   EXPECT_THAT(values("//ANNOTATION_VALUE | //TIER/@TIER_ID"), ElementsAre("Gloss", "ÉTÉ", "a<b>&&lol;", "Tag"));
 }
 
-TEST(XPath, NodesAreGivenAsXml) {
+TEST(XPath, NodesAreReturnedAsXml) {
   const std::vector<Value> found =
       all("//ALIGNABLE_ANNOTATION[2 = count(../preceding-sibling::*) + 1]/ANNOTATION_VALUE");
   ASSERT_THAT(found, SizeIs(1));
@@ -59,7 +59,7 @@ TEST(XPath, AttributesTextsAndComments) {
   EXPECT_EQ(all("/").at(0).kind, Value::Kind::document);
 }
 
-TEST(XPath, ValuesAreGivenAsTheyAre) {
+TEST(XPath, ValuesAreReturnedUnchanged) {
   EXPECT_EQ(all("count(//ANNOTATION)").at(0), (Value{Value::Kind::number, "", "2", "2"}));
   EXPECT_EQ(all("1 div 0").at(0).value, "Infinity");
   EXPECT_EQ(all("//TIER/@TIER_ID = 'Tag'").at(0), (Value{Value::Kind::boolean, "", "true", "true"}));
@@ -72,7 +72,7 @@ TEST(XPath, LettersAreCountedNotBytes) {
   EXPECT_EQ(values("substring(//ANNOTATION_VALUE, 2, 1)"), std::vector<std::string>{"T"});
 }
 
-TEST(XPath, EntitiesAndFilesStayOutside) {
+TEST(XPath, EntitiesAndFilesAreNotRead) {
   const std::string bomb =
       "<!DOCTYPE a [<!ENTITY b \"x\"><!ENTITY c \"&b;&b;\"><!ENTITY d SYSTEM \"file:///etc/passwd\">]>"
       "<a>&c;&d;</a>";
@@ -80,11 +80,11 @@ TEST(XPath, EntitiesAndFilesStayOutside) {
   EXPECT_THROW(Expression("document('/etc/passwd')"), QueryError) << "XSLT's, not XPath's";
 }
 
-TEST(XPath, LimitsAreKept) {
+TEST(XPath, LimitsAreRespected) {
   EXPECT_THAT(evaluate(Expression("//*"), "x", kDocument, {.limit = 3, .deadline = {}}), SizeIs(3));
 }
 
-TEST(XPath, ADeadlineStopsWhatWouldNeverEnd) {
+TEST(XPath, ADeadlineStopsAnEndlessEvaluation) {
   std::string document = "<a>";
   for (int i = 0; i < 2000; ++i) document += fmt::format("<b c='{}'/>", i);
   document += "</a>";
@@ -107,7 +107,7 @@ struct Wrong {
 
 class XPathWrong : public testing::TestWithParam<Wrong> {};
 
-TEST_P(XPathWrong, IsToldWithThePlace) {
+TEST_P(XPathWrong, IsReportedWithItsPosition) {
   try {
     all(GetParam().text);
     FAIL() << "was answered";
@@ -123,15 +123,15 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(Wrong{"", "there is no expression; write one such as //ANNOTATION_VALUE", 1},
                     Wrong{"//TIER[@TIER_ID='Gloss]", "the text has no closing quote; end it with '", 17},
                     Wrong{"//TIER[1", "this '[' is not closed; add ']'", 7},
-                    Wrong{"//TIER]", "there is no '[' that this closes; take it out", 7},
-                    Wrong{"//TIER[1)", "there is no '(' that this closes; take it out", 9},
+                    Wrong{"//TIER]", "there is no '[' that this closes; remove it", 7},
+                    Wrong{"//TIER[1)", "there is no '(' that this closes; remove it", 9},
                     Wrong{"cuont(//TIER)", "there is no function 'cuont'; did you mean count?", 1},
                     Wrong{"//TIER/parents::*", "there is no axis 'parents'; did you mean parent?", 8},
                     Wrong{"//É and $x", "there are no variables; write the value itself", 9},
-                    Wrong{"//TIER %", "'%' begins nothing that XPath knows; take it out", 8},
+                    Wrong{"//TIER %", "'%' does not begin any XPath token; remove it", 8},
                     Wrong{"//TIER adn //X", "expected an operator or the end, found 'adn'; did you mean and?", 8}));
 
-TEST(XPath, WhatOnlyItsGrammarTellsIsRefusedBeforeAnythingIsRead) {
+TEST(XPath, GrammarErrorsAreRejectedBeforeAnythingIsRead) {
   for (const char* text :
        {"//", "//TIER[", "//TIER[]", "1 +", "//@", "/..//[1]", "count()", "a::b", "//TIER/", "!", "()"}) {
     EXPECT_THROW(all(text), QueryError) << text;
@@ -173,7 +173,7 @@ std::string excerpt(const std::string& text) {
                      expression.excerpt()->name);
 }
 
-TEST(XPath, KnowsWhichPartTellsEverything) {
+TEST(XPath, RecognisesExpressionsOnOnePart) {
   EXPECT_EQ(excerpt("//TIER[@TIER_ID=\"Gloss\"]//ANNOTATION_VALUE"), "tier Gloss");
   EXPECT_EQ(excerpt("/ANNOTATION_DOCUMENT/TIER[@TIER_ID='Gloss']/ANNOTATION[3]/*/ANNOTATION_VALUE/text()"),
             "tier Gloss");
@@ -185,7 +185,7 @@ TEST(XPath, KnowsWhichPartTellsEverything) {
   EXPECT_EQ(excerpt("//TIER[@TIER_ID='G']/descendant::ANNOTATION_VALUE[starts-with(., 'A')]"), "tier G");
 }
 
-TEST(XPath, WhatLeadsOutOfAPartNeedsTheWhole) {
+TEST(XPath, APathOutOfAPartNeedsTheWhole) {
   for (const char* text : {"//TIER",
                            "//TIER[1][@TIER_ID='x']",
                            "//TIER[@TIER_ID='x']/..",

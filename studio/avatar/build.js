@@ -1,4 +1,4 @@
-// Builds one character: gathered once, written in as many ways as are asked for.
+// Builds one character: gathered once, written in all requested variants.
 import { gather } from './shape/character.js';
 import { writeGlb } from './glb/write.js';
 import { extrasOf } from './rig/extras.js';
@@ -6,7 +6,7 @@ import { materialsOf } from './surface/materials.js';
 
 /**
  * @param {string} name `woman` or `man`
- * @param {Array<{ small: boolean }>} kinds small: meshopt, whole numbers, WebP; else nothing that a plain glTF reader does not know
+ * @param {Array<{ small: boolean }>} kinds small: meshopt, integers, WebP; otherwise only features of plain glTF
  * @returns {Promise<Uint8Array[]>} one GLB for each kind
  */
 export async function buildCharacter(name, kinds) {

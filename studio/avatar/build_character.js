@@ -1,5 +1,5 @@
-// build_character.js [--plain] OUT_FOLDER [woman|man]…: writes woman.glb and man.glb, with --plain woman.plain.glb and
-// man.plain.glb beside them, which need no extension and are several times as large.
+// build_character.js [--plain] OUT_FOLDER [woman|man]…: writes woman.glb and man.glb, with --plain also woman.plain.glb and man.plain.glb, which need no
+// extension and are several times as large.
 import fs from 'node:fs';
 import path from 'node:path';
 import { buildCharacter } from './build.js';
@@ -19,7 +19,7 @@ for (const name of names.length > 0 ? names : Object.keys(PEOPLE)) {
   written.forEach((bytes, k) => {
     const file = path.join(folder, `${name}${kinds[k].small ? '' : '.plain'}.glb`);
     fs.writeFileSync(`${file}.part`, bytes);
-    fs.renameSync(`${file}.part`, file); // whole or not at all
+    fs.renameSync(`${file}.part`, file); // atomically
     console.log(`${file}: ${bytes.length} bytes`);
   });
 }

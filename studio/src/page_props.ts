@@ -2,15 +2,15 @@ import type { Api } from './api/client'
 import type { Route, WorkState } from './ui/route'
 import type { Wardrobe } from './viewer/wardrobe.svelte'
 
-/** What every page that one works on is given. */
+/** The properties of every working page. */
 export interface PageProps {
   readonly api: Api
   readonly wardrobe: Wardrobe
   readonly database: string
   readonly recording?: string
-  /** What the address says of the page; changes where the user goes back, or follows a link. */
+  /** The page's state from the address; changes when the user goes back or follows a link. */
   readonly state: WorkState
   readonly go: (to: Route) => void
-  /** To be called where the database's recordings became others. */
+  /** To be called when the list of recordings in the database has changed. */
   readonly onchange: () => void
 }

@@ -4,7 +4,7 @@ import type { WorkPage } from './ui/route'
 
 type Page = Promise<{ readonly default: Component<PageProps> }>
 
-/** Each is fetched when somebody goes there. */
+/** Each page is loaded when it is first opened. */
 export const kPages: Readonly<Record<WorkPage, () => Page>> = {
   compose: () => import('./compose/Compose.svelte'),
   search: () => import('./search/Search.svelte'),

@@ -1,11 +1,11 @@
-// Kills a process that changes a database, at random moments, and looks at what is left.
+// Kills a process that changes a database at random moments, and checks the database.
 //
 //     kill_writer [--engine NAME] [--rounds N] [--seed S]
 //
-// A child does one change after another: it adds recordings, replaces them, stores them in another access mode, removes
-// them. Which change is number i follows from the seed, so the parent knows what the database must hold after each. It
-// kills the child with SIGKILL, opens the database, and expects either all changes that were acknowledged, or these and
-// the one that was under way: every recording bit for bit, none by half, nothing left over, no fault found.
+// A child process makes one change after another: it adds recordings, replaces them, stores them in another access
+// mode, removes them. Change number i follows from the seed, so the parent knows what the database must contain after
+// each. It kills the child with SIGKILL, opens the database, and expects either all acknowledged changes, or these and
+// the one in progress: every recording bit for bit, none partially, nothing left over, no fault found.
 
 #include <fmt/format.h>
 #include <signal.h>
@@ -32,9 +32,9 @@ namespace fs = std::filesystem;
 
 constexpr int kNames = 5;
 
-/// What a database holds of one recording.
+/// The expected state of one recording in a database.
 struct Held {
-  int content = 0;  ///< which motion and words
+  int content = 0;  ///< the seed of its motion and words
   bool rounded = false;
   std::string mode;  ///< of its packets; empty: the database's own
 };
@@ -50,7 +50,7 @@ struct Change {
 
 constexpr float kTolerance = 0.0005f;
 
-/// Long enough that a motion takes several transactions in most modes.
+/// Long enough for a motion to take several transactions in most modes.
 Recording recording_of(const std::string& name, int content) {
   Recording recording = testing_database::small_recording(name, content, {"A", fmt::format("B{}", content)},
                                                           2'000 + 1'000 * (content % 4));
@@ -61,7 +61,7 @@ Recording recording_of(const std::string& name, int content) {
   return recording;
 }
 
-/// Change number `i` of a seed, on the state before it.
+/// Change number `i` of a seed, applied to the state before it.
 Change change_number(std::uint64_t seed, std::uint64_t i, const State& state) {
   std::mt19937_64 random(seed * 1'000'003 + i);
   constexpr const char* kModes[] = {"full", "by_frame:3", "by_frame", "by_joint", "by_joint_and_frame:5"};
@@ -107,7 +107,7 @@ void make_change(const Change& change, Database& database) {
   }
 }
 
-/// Does changes from number `next` on until it is killed; tells the number of each when it has returned.
+/// Makes changes from number `next` on until it is killed; reports the number of each after it has returned.
 [[noreturn]] void change_until_killed(const fs::path& folder, std::uint64_t seed, std::uint64_t next, State state,
                                       int pipe) {
   try {
@@ -124,7 +124,7 @@ void make_change(const Change& change, Database& database) {
   ::_exit(1);
 }
 
-/// What is wrong with the database if it is to hold `state`; empty: nothing.
+/// The first difference between the database and `state`; empty if there is none.
 std::string difference(const Database& database, const State& state) {
   const std::shared_ptr<const Contents> contents = database.contents();
   if (!contents->faults.empty()) return contents->faults.front();
@@ -136,7 +136,7 @@ std::string difference(const Database& database, const State& state) {
     const RecordingInfo* info = contents->find(name);
     if (info == nullptr) return name + " is missing";
     const Recording expected = recording_of(name, held.content);
-    if (info->motion->frames != expected.motion->motion.frame_count()) return name + " is another motion";
+    if (info->motion->frames != expected.motion->motion.frame_count()) return name + " has a different motion";
     const Motion& motion = expected.motion->motion;
     if (!same_bits(database.read(name), held.rounded ? motion_db::quantise(motion, kTolerance) : motion)) {
       return name + " differs";
@@ -144,15 +144,15 @@ std::string difference(const Database& database, const State& state) {
     const AccessMode mode = motion_db::fitted(*parse_access_mode(held.mode.empty() ? "by_frame:16" : held.mode),
                                               motion.skeleton(), held.rounded ? kTolerance : 0);
     if (info->motion->mode != mode) return fmt::format("{} is stored {}", name, to_string(info->motion->mode));
-    if (database.document(name).tiers != expected.annotation->document.tiers) return name + " has other words";
+    if (database.document(name).tiers != expected.annotation->document.tiers) return name + " has different words";
     records += 1 + 4 + 1 + motion_db::packet_count(*info->motion);  // entry; 4 of the document; skeleton; packets
-    constexpr std::int64_t kTrackFrames = 4'084;                    // as many values of one track fill four pages
+    constexpr std::int64_t kTrackFrames = 4'084;                    // this many values of one track fill four pages
     if (!motion.tracks().empty()) records += static_cast<std::uint64_t>((motion.frame_count() - 1) / kTrackFrames) + 1;
   }
   const std::uint64_t entries = database.engine().entries;
-  // The sweep list is not there before the first motion.
+  // There is no sweep list before the first motion.
   if (entries != records && !(state.empty() && entries == 1)) {
-    return fmt::format("{} records, not {}: something is left over", entries, records);
+    return fmt::format("{} records instead of {}: something is left over", entries, records);
   }
   return {};
 }
@@ -165,7 +165,7 @@ struct Options {
 
 struct Outcome {
   std::uint64_t changes = 0;
-  int finished = 0;  ///< rounds in which the change that was under way is there
+  int finished = 0;  ///< rounds in which the change in progress was made
 };
 
 Outcome run(const Options& options) {
@@ -186,19 +186,20 @@ Outcome run(const Options& options) {
       change_until_killed(folder, options.seed, next, state, ends[1]);
     }
     ::close(ends[1]);
-    // Some changes, and then a moment within the next ones.
+    // Some changes, and then a moment within the following ones.
     const std::uint64_t wanted = random() % 3;
-    std::uint64_t told = 0;
+    std::uint64_t number = 0;
     for (std::uint64_t i = 0; i < wanted; ++i) {
-      if (::read(ends[0], &told, sizeof told) != sizeof told) throw std::runtime_error("the writer ended by itself");
-      make_change(change_number(options.seed, told, state), state);
-      next = told + 1;
+      if (::read(ends[0], &number, sizeof number) != sizeof number)
+        throw std::runtime_error("the writer ended by itself");
+      make_change(change_number(options.seed, number, state), state);
+      next = number + 1;
     }
     std::this_thread::sleep_for(std::chrono::microseconds(random() % 60'000));
     ::kill(child, SIGKILL);
-    while (::read(ends[0], &told, sizeof told) == sizeof told) {
-      make_change(change_number(options.seed, told, state), state);
-      next = told + 1;
+    while (::read(ends[0], &number, sizeof number) == sizeof number) {
+      make_change(change_number(options.seed, number, state), state);
+      next = number + 1;
     }
     ::close(ends[0]);
     int status = 0;
@@ -214,7 +215,7 @@ Outcome run(const Options& options) {
       make_change(change, with);
       const std::string fault = difference(database, with);
       if (!fault.empty()) {
-        throw std::runtime_error(where() + "neither the old nor the new: " + without + "; " + fault);
+        throw std::runtime_error(where() + "neither the old nor the new state: " + without + "; " + fault);
       }
       state = with;
       ++next;

@@ -1,4 +1,4 @@
-// print_openapi: the OpenAPI document of the server, on standard output.
+// print_openapi: prints the OpenAPI document of the server to standard output.
 #include <iostream>
 
 #include "app/server/api.h"

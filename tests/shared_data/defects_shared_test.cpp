@@ -1,5 +1,5 @@
-// What is wrong with the real files, each answer looked at: contact sheets of the frames told, and the numbers
-// themselves where nothing is to be seen.
+// The defects of the real files, each verified by eye: on contact sheets of the reported frames, and in the numbers if
+// nothing is visible.
 
 #include <gtest/gtest.h>
 
@@ -17,8 +17,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// "T-pose [0, 42)" each, in order.
-std::vector<std::string> told(const fs::path& path, const bvh::ReadOptions& options = {}) {
+/// "T-pose [0, 42)" for each defect, in order.
+std::vector<std::string> defects_of(const fs::path& path, const bvh::ReadOptions& options = {}) {
   const Motion motion = bvh::read(path, options).motion;
   std::vector<std::string> result;
   for (const Defect& defect : find_defects(motion, map_rig(motion))) {
@@ -28,18 +28,19 @@ std::vector<std::string> told(const fs::path& path, const bvh::ReadOptions& opti
   return result;
 }
 
-TEST(SharedDefects, EveryFileHasThoseThatAreTrue) {
+TEST(SharedDefects, EveryFileHasItsKnownDefects) {
   const std::map<std::string, std::vector<std::string>> known = {
       {"always.bvh", {"T-pose [0, 1)"}},
       {"cmu_12_01_walk.bvh", {"T-pose [0, 1)"}},
       {"standard_skeleton.bvh", {"T-pose [0, 1)"}},
-      // 3.6 cm would be about right; the reader knows of 2.54 and 5.64 and says that the stature is unusual.
+      // 3.6 cm would be about right; the reader only considers 2.54 and 5.64 and reports an unusual stature.
       {"dab.bvh", {"T-pose [0, 42)", "scale [0, 0)"}},
       {"zombie.bvh", {"T-pose [0, 35)", "scale [0, 0)"}},
       {"jumping.bvh", {"T-pose [0, 143)", "scale [0, 0)"}},
-      // Hands and neck of that suit hold one value in all frames.
+      // The hands and neck of this suit have one value in all frames.
       {"jesse_dance.bvh", {"frozen joint [0, 0)"}},
-      // The avatars' idle arm (NGT) and some finger joints (VGT) hold one value; all three roots are permuted.
+      // The avatars' idle arm (NGT) and some finger joints (VGT) have one value in all frames; all three roots are
+      // permuted.
       {"ISL Thanks.bvh", {"permuted root [0, 0)"}},
       {"NGT Thanks.bvh", {"frozen joint [0, 0)", "permuted root [0, 0)"}},
       {"VGT Thanks.bvh", {"frozen joint [0, 0)", "permuted root [0, 0)"}},
@@ -52,15 +53,15 @@ TEST(SharedDefects, EveryFileHasThoseThatAreTrue) {
     ++files;
     const auto expected = known.find(entry.path().filename().string());
     found += expected != known.end() ? 1u : 0u;
-    EXPECT_EQ(told(entry.path()), expected == known.end() ? std::vector<std::string>() : expected->second);
+    EXPECT_EQ(defects_of(entry.path()), expected == known.end() ? std::vector<std::string>() : expected->second);
   }
   EXPECT_GE(files, 60u);
   EXPECT_EQ(found, known.size());
 }
 
-TEST(SharedDefects, AMendedRootIsNoDefect) {
+TEST(SharedDefects, AFixedRootIsNotADefect) {
   const fs::path path = fs::path(SIGNWEAVE_SHARED_DATA) / "bvh/signon-thanks/ISL Thanks.bvh";
-  EXPECT_TRUE(told(path, {.root_unit = 1.0, .root_columns = bvh::RootColumns::rotation_first}).empty());
+  EXPECT_TRUE(defects_of(path, {.root_unit = 1.0, .root_columns = bvh::RootColumns::rotation_first}).empty());
 }
 
 }  // namespace

@@ -6,11 +6,11 @@
 #include "signweave/kv/test_folder.h"
 #include "signweave/semantic_db/documents.h"
 
-/// Annotation files made by others, stored cut into their annotations.
+/// Annotation files by other authors, stored split into their annotations.
 namespace signweave {
 namespace {
 
-TEST(DocumentsShared, EveryFileComesBackByteForByteAndIsCut) {
+TEST(DocumentsShared, EveryFileIsSplitAndRestoredByteForByte) {
   const kv::TestFolder folder;
   kv::create(folder / "db", "lmdb");
   const auto store = kv::open(folder / "db", kv::Access::read_write);
@@ -26,11 +26,11 @@ TEST(DocumentsShared, EveryFileComesBackByteForByteAndIsCut) {
     EXPECT_EQ(semantic_db::fault_of_document(*snapshot, generation, "x"), "");
     const std::optional<std::string> around =
         semantic_db::read_excerpt(*snapshot, generation, semantic_db::ExcerptOf::tier, "no such tier", "x");
-    ASSERT_TRUE(around) << entry.path() << ": a part of a real file stands for the whole";
+    ASSERT_TRUE(around) << entry.path() << ": a part of a real file was stored for the whole";
     EXPECT_LT(around->size(), 1000U);
     for (const std::string id : {"a1", "a2", "a3"}) {
       const std::optional<StoredAnnotation> found = semantic_db::read_annotation(*snapshot, generation, id, "x");
-      if (!found) continue;  // not every file numbers from 1
+      if (!found) continue;  // not every file counts from 1
       EXPECT_NE(text.find(found->xml), std::string::npos);
       EXPECT_NE(found->xml.find("ANNOTATION_ID=\"" + id + "\""), std::string::npos);
     }

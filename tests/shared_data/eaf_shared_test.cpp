@@ -9,7 +9,7 @@
 #include "signweave/core/atomic_file.h"
 #include "signweave/formats/eaf/eaf.h"
 
-/// Annotation files made by others, in the folder SIGNWEAVE_SHARED_DATA.
+/// Annotation files by other authors, in the folder SIGNWEAVE_SHARED_DATA.
 namespace signweave {
 namespace {
 
@@ -71,7 +71,7 @@ TEST(SharedEaf, OneChangedLabelLeavesEveryOtherTiersBytes) {
   }
 }
 
-TEST(SharedEaf, EveryFileComesBackFromItsModelAlone) {
+TEST(SharedEaf, EveryFileIsRestoredFromItsModelAlone) {
   for (const std::filesystem::path& path : annotation_files()) {
     AnnotationDocument document = eaf::read(path).document;
     document.source.clear();

@@ -1,4 +1,4 @@
-// The evaluation on captured files: what must hold whatever the methods are tuned to.
+// The evaluation on captured files: properties that must hold however the methods are tuned.
 
 #include <gtest/gtest.h>
 
@@ -70,11 +70,11 @@ struct SharedEvaluation : testing::Test {
 TEST_F(SharedEvaluation, EveryGroupHasSpans) {
   std::vector<std::size_t> counts(choice.groups.size());
   for (const EvaluatedSpan& span : choice.spans) ++counts[span.group];
-  EXPECT_EQ(counts[0], 0u) << "no annotation was given";
+  EXPECT_EQ(counts[0], 0u) << "the files have no annotation";
   for (std::size_t group = 1; group < counts.size(); ++group) EXPECT_GE(counts[group], 5u) << choice.groups[group];
 }
 
-TEST_F(SharedEvaluation, TheCaptureIsRankedAsItMustBe) {
+TEST_F(SharedEvaluation, TheCaptureIsRankedAsExpected) {
   for (const char* const group : {"170 ms", "280 ms", "520 ms"}) {
     const auto wrist = [&](std::string_view name) { return figure(scores, name, group, Measure::wrist); };
     EXPECT_LT(wrist("hermite"), wrist("slerp")) << group << ": velocities at the borders are what counts";

@@ -1,4 +1,4 @@
-// The hands of real signers: whether what is measured is what people can do.
+// The hands of real signers: whether the measured values are humanly possible.
 
 #include <gtest/gtest.h>
 
@@ -24,14 +24,15 @@ INSTANTIATE_TEST_SUITE_P(SharedData, RealHands,
                            return stem.substr(0, stem.find(' '));
                          });
 
-TEST_P(RealHands, AreWherePeoplesHandsCanBe) {
+TEST_P(RealHands, AreWhereHumanHandsCanBe) {
   SignerModel model{.rig = map_rig(motion), .body = {}};
   model.body = signer_body(motion, model.rig);
   ASSERT_TRUE(model.body) << why_no_signer_space(model.rig);
   EXPECT_GT(model.body->shoulder_width, 0.2f);
   EXPECT_LT(model.body->shoulder_width, 0.5f);
   const HandMotion hands = measure_hands(motion, model, {0, motion.frame_count()});
-  // In always.bvh the first frame is a T-pose, from which the hands jump: the fits that see it are no speeds.
+  // In always.bvh the first frame is a T-pose, from which the hands jump: velocity fits that include it are not real
+  // speeds.
   const std::size_t first = std::string_view(GetParam()).starts_with("ksl") ? 4 : 0;
   float fastest = 0;
   for (const HandMotion::OneHand& hand : hands.hands) {
@@ -58,10 +59,10 @@ TEST_P(RealHands, SignInFrontOfTheBody) {
   model.body = signer_body(motion, model.rig);
   ASSERT_TRUE(model.body);
   const HandMotion hands = measure_hands(motion, model, {0, motion.frame_count()});
-  // Where a right hand is as high as the chest it is signing: before the body, and not on the left.
+  // A right hand as high as the chest is signing: in front of the body, and not on the left.
   int signing = 0;
   for (const HandFrame& frame : hands.hands[1].frames) {
-    if (frame.velocity.norm() > 5) continue;  // out of the T-pose
+    if (frame.velocity.norm() > 5) continue;  // after the T-pose
     const Zone zone = zone_of(frame.position, *model.body);
     if (zone.height < Height::chest || frame.position.z() < 0) continue;
     ++signing;

@@ -1,4 +1,4 @@
-// Queries over annotation made by others, each answer beside a plain loop over what the EAF reader gives.
+// Queries over annotation by other authors, each answer compared with a plain loop over the result of the EAF reader.
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -28,7 +28,7 @@ using testing::Not;
 using Row = std::tuple<std::string, std::int64_t, std::int64_t>;  ///< recording, begin, end
 using Rows = std::set<Row>;
 
-/// An annotation as the reader gives it, its label without the white space at its ends.
+/// An annotation as returned by the reader, its label without surrounding white space.
 struct Read {
   std::string label;
   TimeSpan span{};
@@ -48,7 +48,7 @@ struct File {
     const auto at = tiers.find(id);
     return at == tiers.end() ? kNone : at->second;
   }
-  /// Those of the sign tier that have a label: its signs.
+  /// The labelled annotations of the sign tier: its signs.
   std::vector<Read> glosses() const {
     std::vector<Read> result = tier(sign_tier);
     std::erase_if(result, [](const Read& one) { return one.label.empty(); });
@@ -60,7 +60,7 @@ bool overlap(TimeSpan a, TimeSpan b) {
   return std::max(a.begin, b.begin) < std::min(a.end, b.end);
 }
 
-/// All of the shared files that are annotated, imported once.
+/// All annotated shared files, imported once.
 class SharedQueries : public testing::Test {
  protected:
   static void SetUpTestSuite() {
@@ -110,7 +110,7 @@ class SharedQueries : public testing::Test {
     return rows;
   }
 
-  /// What a loop over all files adds.
+  /// The rows that a loop over all files adds.
   static Rows loop(const std::function<void(const File&, const std::function<void(TimeSpan)>&)>& look) {
     Rows rows;
     for (const File& file : *files_) {
@@ -118,7 +118,7 @@ class SharedQueries : public testing::Test {
     }
     return rows;
   }
-  /// The annotations of a tier, or the signs where it is empty, for which something holds.
+  /// The annotations of a tier, or the signs if `tier` is empty, for which a predicate holds.
   static Rows those(const std::string& tier, const std::function<bool(const File&, const Read&)>& holds) {
     return loop([&](const File& file, const auto& add) {
       for (const Read& one : tier.empty() ? file.glosses() : file.tier(tier)) {
@@ -126,7 +126,7 @@ class SharedQueries : public testing::Test {
       }
     });
   }
-  /// As they must be; and a query that finds nothing would prove nothing.
+  /// Expects these rows, and some: an empty answer would prove nothing.
   static void expect(const std::string& query, const Rows& rows) {
     EXPECT_EQ(answers(query), rows) << query;
     EXPECT_THAT(rows, Not(IsEmpty())) << query;
@@ -141,18 +141,18 @@ kv::TestFolder* SharedQueries::folder_ = nullptr;
 Database* SharedQueries::database_ = nullptr;
 std::vector<File>* SharedQueries::files_ = nullptr;
 
-/// Pairs of signs of one recording, where the second comes directly after the first.
+/// Pairs of signs of one recording in which the second directly follows the first.
 void neighbours(const File& file, const std::function<void(const Read&, const Read&)>& look) {
   const std::vector<Read> signs = file.glosses();
   for (std::size_t i = 1; i < signs.size(); ++i) look(signs[i - 1], signs[i]);
 }
 
-TEST_F(SharedQueries, ThereAreAsManyFilesAsThereWere) {
+TEST_F(SharedQueries, TheNumberOfFilesIsAsExpected) {
   EXPECT_GE(files_->size(), 37U);
   EXPECT_EQ(database_->contents()->recordings.size(), files_->size());
 }
 
-TEST_F(SharedQueries, EveryExampleOfTheInterfaceIsAnsweredAndThoseOfSignsThatAreNotThereAreEmpty) {
+TEST_F(SharedQueries, EveryExampleOfTheInterfaceIsAnsweredAndThoseOfMissingSignsAreEmpty) {
   for (const char* query : {
            R"(gloss = "VANNES")",
            R"(gloss =~ /NUAGE.*/)",

@@ -1,4 +1,4 @@
-// Real signing on the characters that studio/avatar builds, against what the source does.
+// Real signing on the characters built by studio/avatar, compared with the source.
 
 #include <gtest/gtest.h>
 
@@ -15,7 +15,7 @@ using Eigen::Quaternionf;
 
 Motion source(const std::string& name) {
   bvh::ReadOptions options;
-  // What `info` says of these files: the root's columns are permuted, and in metres.
+  // Options according to what `info` reports of these files: the root's columns are permuted, and in metres.
   if (name.starts_with("signon")) options = {.root_unit = 1.0, .root_columns = bvh::RootColumns::rotation_first};
   return bvh::read(fs::path(SIGNWEAVE_SHARED_DATA) / "bvh" / name, options).motion;
 }
@@ -73,7 +73,7 @@ TEST_P(OnTheCharacter, SigningStaysTheSame) {
   EXPECT_LT(quantile(figures.elbow, 1), 0.12f);
 }
 
-TEST_P(OnTheCharacter, ItselfGivesItselfBack) {
+TEST_P(OnTheCharacter, RetargetingTwiceChangesNothing) {
   const auto [who, what] = GetParam();
   const auto path = built_character(who);
   if (!path) {
@@ -85,9 +85,9 @@ TEST_P(OnTheCharacter, ItselfGivesItselfBack) {
   Motion once = retarget(motion, model_in(motion), character).motion;
   once.take_tracks();
   const Motion twice = retarget(once, {.rig = character.rig, .body = character.body}, character).motion;
-  float bent = 0;      // degrees, of joints but those of nearly straight arms
-  float straight = 0;  // degrees, of those
-  float moved = 0;     // metres, of the wrists
+  float bent = 0;      // degrees, joints except those of nearly straight arms
+  float straight = 0;  // degrees, joints of nearly straight arms
+  float moved = 0;     // metres, wrists
   for (std::int64_t frame = 0; frame < once.frame_count(); ++frame) {
     const ModelPose before = to_model_space(*character.skeleton, once.pose(frame));
     const ModelPose after = to_model_space(*character.skeleton, twice.pose(frame));
@@ -111,7 +111,7 @@ TEST_P(OnTheCharacter, ItselfGivesItselfBack) {
       what, bent, straight, 1000 * moved);
   EXPECT_LT(moved, 0.001f);
   EXPECT_LT(bent, 0.1f);
-  // The elbow of a nearly straight arm turns by degrees where its wrist moves by less than a millimetre.
+  // The elbow of a nearly straight arm turns by degrees when its wrist moves by less than a millimetre.
   EXPECT_LT(straight, 2);
 }
 

@@ -15,15 +15,15 @@ namespace {
 namespace fs = std::filesystem;
 using enum Part;
 
-/// What the joints of one exporter are, read off its files by eye. `@` stands for the side.
-/// More than fifteen members: a joint each.
+/// The joints of one exporter, identified in its files by eye. `@` is the side.
+/// More than fifteen members: one per joint.
 struct Expected {
-  std::string files;  ///< what their paths begin with, below bvh/
+  std::string files;  ///< the beginning of their paths, below bvh/
   std::string convention;
   std::string left, right;
   std::string pelvis, spine, chest, neck, head;
   std::string collar, arm, elbow, hand, thigh, knee, foot, toes;
-  int fingers;          ///< of each hand
+  int fingers;          ///< per hand
   std::string knuckle;  ///< of the right index finger
 };
 
@@ -85,7 +85,7 @@ std::vector<Expected> table() {
     one.fingers = 5;
     one.knuckle = "mixamorig_RightHandIndex1";
   });
-  // No bodies: "no failure" is what is to be seen.
+  // Files without a body, for which the expected result is only that nothing fails.
   all.push_back(
       {"pybvh/full_precision", "", "Left", "Right", "Hips", "", "", "", "Head", "", "", "", "", "", "", "", "", 0, ""});
   all.push_back({"pybvh/rotation_first", "", "Left", "Right", "Hips", "Spine", "", "", "Head", "", "", "", "", "", "",
@@ -93,7 +93,7 @@ std::vector<Expected> table() {
   return all;
 }
 
-TEST(RigOfRealFiles, IsWhatAPersonReadsOffThem) {
+TEST(RigOfRealFiles, IsAsIdentifiedByEye) {
   const fs::path root = fs::path(SIGNWEAVE_SHARED_DATA) / "bvh";
   std::size_t files = 0;
   std::vector<bool> seen(table().size());
@@ -146,8 +146,8 @@ TEST(RigOfRealFiles, IsWhatAPersonReadsOffThem) {
   EXPECT_THAT(seen, testing::Each(true)) << "every exporter was there";
 }
 
-/// A mirrored body has its left where the names say right; every real body shows it.
-TEST(RigOfRealFiles, TellsThatAMirroredBodyIsTheOtherWayRound) {
+/// The left of a mirrored body is where the names say right; every real body must show it.
+TEST(RigOfRealFiles, AMirroredBodyHasItsSidesSwapped) {
   const fs::path root = fs::path(SIGNWEAVE_SHARED_DATA) / "bvh";
   std::size_t bodies = 0;
   for (const fs::directory_entry& entry : fs::recursive_directory_iterator(root)) {
@@ -165,8 +165,8 @@ TEST(RigOfRealFiles, TellsThatAMirroredBodyIsTheOtherWayRound) {
   EXPECT_GE(bodies, 77u);
 }
 
-/// The body's shape alone: what it tells, it tells as the names do.
-TEST(RigOfRealFiles, IsTheSameByShapeWhereTheWholeBodyIsThere) {
+/// From the body's shape alone: every part found is the one found by name.
+TEST(RigOfRealFiles, IsTheSameByShapeIfTheBodyIsComplete) {
   const fs::path root = fs::path(SIGNWEAVE_SHARED_DATA) / "bvh";
   std::size_t bodies = 0;
   for (const char* name :
@@ -185,7 +185,7 @@ TEST(RigOfRealFiles, IsTheSameByShapeWhereTheWholeBodyIsThere) {
     const RigMap by_shape = map_rig(nameless);
     for (std::size_t i = 0; i < kPartCount; ++i) {
       const auto part = static_cast<Part>(i);
-      if (i >= kNamedParts && by_name.has(part) && !by_shape.has(part)) continue;  // a lone thumb
+      if (i >= kNamedParts && by_name.has(part) && !by_shape.has(part)) continue;  // a single thumb
       EXPECT_EQ(by_shape[part].joint, by_name[part].joint) << name_of(part);
       if (by_shape.has(part)) {
         EXPECT_LT(by_shape[part].confidence, by_name[part].confidence) << name_of(part);

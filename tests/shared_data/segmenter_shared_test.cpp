@@ -18,8 +18,8 @@ double mean_of(const std::vector<SplitScore>& scores, double (PhaseScore::*value
   return sum / static_cast<double>(scores.size());
 }
 
-// Floors a little under what docs/segmenting.md states. The same program trains and tells here as in the product.
-TEST(SegmenterOnRealGestures, AUserNeverSeenIsToldAsWellAsStated) {
+// Floors slightly below the values in docs/segmenting.md. Training and evaluation use the same program as the product.
+TEST(SegmenterOnRealGestures, AnUnseenUserIsSegmentedAsWellAsStated) {
   const std::vector<LabelledTrack> recordings = read_gesture_phases(kFolder);
   ASSERT_EQ(recordings.size(), 4u);
   const std::vector<SplitScore> scores = score_users_left_out(recordings);
@@ -34,25 +34,26 @@ TEST(SegmenterOnRealGestures, AUserNeverSeenIsToldAsWellAsStated) {
   }
 }
 
-// Else the weights in the repository are not those that the training program makes.
-TEST(SegmenterOnRealGestures, TheBuiltInModelIsWhatTrainingGives) {
+// Otherwise the weights in the repository are not the output of the training program.
+TEST(SegmenterOnRealGestures, TheBuiltInModelIsTheResultOfTraining) {
   const std::vector<LabelledTrack> recordings = read_gesture_phases(kFolder);
   std::vector<const LabelledTrack*> all;
   for (const LabelledTrack& recording : recordings) all.push_back(&recording);
   const PhaseModel trained = train(all);
   PhaseScore same;
   for (const LabelledTrack& recording : recordings) {
-    same.add(told_by(built_in_phase_model(), recording), told_by(trained, recording));
+    same.add(predicted_phases(built_in_phase_model(), recording), predicted_phases(trained, recording));
   }
   std::size_t agreed = 0;
   for (std::size_t phase = 0; phase < kMotionPhases; ++phase) agreed += same.counts[phase][phase];
-  EXPECT_GE(static_cast<double>(agreed), 0.98 * static_cast<double>(same.frames()));  // other compilers round otherwise
+  EXPECT_GE(static_cast<double>(agreed),
+            0.98 * static_cast<double>(same.frames()));  // other compilers round differently
 }
 
 TEST(SegmenterOnRealGestures, IsFiveHundredTimesFasterThanTheMotion) {
   const LabelledTrack recording = read_gesture_phase(kFolder / "raw" / "a3_raw.csv");
   Seconds taken(1e9);
-  for (int run = 0; run < 3; ++run) {  // the best of three: other programs take their share of the machine
+  for (int run = 0; run < 3; ++run) {  // the best of three: other programs use the machine as well
     const auto start = std::chrono::steady_clock::now();
     const ProposedPhases proposed = propose_phases(recording.track);
     taken = std::min<Seconds>(taken, std::chrono::steady_clock::now() - start);
@@ -62,7 +63,7 @@ TEST(SegmenterOnRealGestures, IsFiveHundredTimesFasterThanTheMotion) {
   std::cout << seconds / taken.count() << " times real time\n";
 #ifdef NDEBUG
   EXPECT_GT(seconds / taken.count(), 500);
-#else  // unoptimised, and with sanitizers
+#else  // unoptimised, or with sanitizers
   EXPECT_GT(seconds / taken.count(), 5);
 #endif
 }

@@ -24,7 +24,7 @@ namespace fs = std::filesystem;
 void put(Database& writer, const std::string& name) {
   const fs::path path = fs::path(SIGNWEAVE_SHARED_DATA) / "bvh" / name;
   bvh::ReadOptions options;
-  // What `info` says of these files: the root's columns are permuted, and in metres.
+  // Options according to what `info` reports of these files: the root's columns are permuted, and in metres.
   if (name.starts_with("signon")) options = {.root_unit = 1.0, .root_columns = bvh::RootColumns::rotation_first};
   bvh::File motion = bvh::read(path.string() + ".bvh", options);
   eaf::File document = eaf::read(path.string() + ".eaf");
@@ -57,7 +57,7 @@ INSTANTIATE_TEST_SUITE_P(TwoSkeletonsSharedData, AcrossRigs,
                                          std::pair("ALWAYS ISL-2 ALWAYS", "ISL Thanks"),
                                          std::pair("ALWAYS VGT-2 ALWAYS", "VGT Thanks")));
 
-TEST_P(AcrossRigs, HandsPointBendAndLieAsTheyDid) {
+TEST_P(AcrossRigs, HandsKeepDirectionBendAndPosition) {
   const auto [text, other] = GetParam();
   const Synthesis made = synthesize(corpus(), parse_utterance(text), {.alignment = Alignment::none}).result;
   ASSERT_EQ(made.notices.size(), 1u);
@@ -91,7 +91,7 @@ TEST_P(AcrossRigs, HandsPointBendAndLieAsTheyDid) {
       shape.push_back(
           distance(handshape_of(hand_a, axes_of(hand_a, side)), handshape_of(hand_b, axes_of(hand_b, side))));
       const Eigen::Vector3f shoulder = position_of(there.signer.rig[of(side, Part::left_upper_arm)], a);
-      if ((hand_a.wrist - shoulder).norm() > 0.4f) continue;  // straight arms keep their clip
+      if ((hand_a.wrist - shoulder).norm() > 0.4f) continue;  // straight arms keep their range
       place.push_back((space_a.to_signer(palm_of(hand_a)) - space_b.to_signer(palm_of(hand_b))).norm());
     }
   }

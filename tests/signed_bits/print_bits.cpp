@@ -1,9 +1,9 @@
-// Prints checksums of what the program signs, a line a case: both scenarios of the paper, edits, utterances and live
-// runs, over all methods, rates, alignments and durations. A change that is to change no frame leaves the text as it
-// is.
+// Prints checksums of the program's signing, one line per case: both scenarios of the paper, edits, utterances and live
+// runs, over all methods, rates, alignments and durations. A change that must not change frames leaves the text
+// unchanged.
 //
 //     print_bits DATABASE              all cases
-//     print_bits DATABASE CASE         one, by the beginning of its line, with a checksum for each frame
+//     print_bits DATABASE CASE         one, given by the beginning of its line, with a checksum for each frame
 #include <fmt/format.h>
 
 #include <array>
@@ -27,7 +27,7 @@ namespace {
 
 using namespace signweave;
 
-/// SplitMix64 (Steele, Lea and Flood 2014): the same numbers everywhere.
+/// SplitMix64 (Steele, Lea and Flood 2014): the same numbers on all platforms.
 class Random {
  public:
   explicit Random(std::uint64_t seed) : state_(seed) {}
@@ -47,7 +47,7 @@ class Random {
   std::uint64_t state_;
 };
 
-/// Bytes to be summed up.
+/// A checksum of bytes.
 class Sum {
  public:
   template <class Value>
@@ -75,7 +75,7 @@ class Sum {
   std::vector<std::byte> bytes_;
 };
 
-/// The checksums of a case's frames, and of what is said of them.
+/// The checksums of a case's frames, and of their descriptions.
 class Line {
  public:
   Line(std::string name, bool each_frame) : text_(std::move(name)), each_frame_(each_frame) {}
@@ -264,7 +264,7 @@ class Cases {
     std::fputs(line.done().c_str(), stdout);
   }
 
-  /// A player that is asked for something every few frames.
+  /// A player that receives a request every few frames.
   void live(std::size_t number) {
     const std::string name = fmt::format("live {:03}", number);
     if (!wanted(name)) return;
@@ -326,7 +326,7 @@ class Cases {
       std::vector<float> tracks(header->tracks.size());
       std::size_t here = 0;
       for (; here < ready && taken < frames; ++here, ++taken) {
-        tell(player, words);
+        add_events(player, words);
         if (!player.next({room.pose(0), tracks})) break;
         Sum sum;
         sum.add(PoseView(room.pose(0)));
@@ -335,10 +335,10 @@ class Cases {
       }
       if (here == 0) break;
     }
-    tell(player, words);
+    add_events(player, words);
   }
 
-  static void tell(Player& player, Sum& words) {
+  static void add_events(Player& player, Sum& words) {
     while (const std::optional<PlayerEvent> event = player.take_event()) {
       words.add(static_cast<int>(event->kind));
       words.add(event->frame);

@@ -1,5 +1,5 @@
-// compare_motions A.bvh B.bvh: exit status 0 where both are the same motion within what a stream's quantising takes:
-// joints by name, rotations, translations, count and rate of frames. Prints the largest differences.
+// compare_motions A.bvh B.bvh: exit status 0 if both are the same motion within the error of a stream's quantisation:
+// joints by name, rotations, translations, number and rate of frames. Prints the largest differences.
 
 #include <fmt/format.h>
 
@@ -14,7 +14,7 @@ namespace {
 
 using namespace signweave;
 
-// What BVH's decimals and single precision take, on both sides.
+// The error of BVH's decimals and single precision, on both sides.
 constexpr double kRadians = kRotationError + 4e-6;
 constexpr double kMetres = 10e-6 + 2e-6;
 
@@ -39,7 +39,7 @@ bool compare(const Motion& a, const Motion& b) {
     throw std::runtime_error(fmt::format("{} frames and {}", a.frame_count(), b.frame_count()));
   }
   if (a.rate() != b.rate()) {
-    throw std::runtime_error(fmt::format("{} frames a second and {}", to_string(a.rate()), to_string(b.rate())));
+    throw std::runtime_error(fmt::format("{} frames per second and {}", to_string(a.rate()), to_string(b.rate())));
   }
   const Skeleton& skeleton = a.skeleton();
   if (skeleton.joint_count() != b.skeleton().joint_count()) throw std::runtime_error("other joints");
@@ -71,7 +71,7 @@ bool compare(const Motion& a, const Motion& b) {
 int main(int argc, char** argv) {
   if (argc != 3) return 2;
   try {
-    // Both are written in centimetres, Y up: guessing could differ where one moves less.
+    // Both are written in centimetres, Y up: guessing could differ for the one that moves less.
     const bvh::ReadOptions options{.up = bvh::UpAxis::y, .unit = 0.01};
     return compare(bvh::read(argv[1], options).motion, bvh::read(argv[2], options).motion) ? 0 : 1;
   } catch (const std::exception& error) {

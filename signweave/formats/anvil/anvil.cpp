@@ -40,7 +40,7 @@ class Parser {
   File run() {
     const pugi::xml_node root = xml_.root();
     if (std::string_view(root.name()) != "annotation") {
-      xml_.fail(root, fmt::format("this is no ANVIL file: its root element is <{}>; give a file as ANVIL saves it",
+      xml_.fail(root, fmt::format("this is not an ANVIL file: its root element is <{}>; give a file as ANVIL saves it",
                                   printable(root.name())));
     }
     for (const pugi::xml_node head : root.children("head")) read_head(head);
@@ -149,7 +149,7 @@ class Parser {
     track.elements.push_back(std::move(element));
   }
 
-  /// Its text; links to elements as "TRACK[INDEX]".
+  /// The value's text; links to elements as "TRACK[INDEX]".
   std::string value_of(pugi::xml_node node) const {
     std::string value(trimmed(xml_.content(node)));
     for (const pugi::xml_node link : node.children("value-link")) {
@@ -181,7 +181,7 @@ class Parser {
       }
       const auto found = names_.find(track.ref_name);
       if (found == names_.end()) {
-        if (track.elements.empty()) continue;  // a track that was never begun, nor the one that it refers to
+        if (track.elements.empty()) continue;  // the track has no elements, and neither does the one it refers to
         std::vector<std::string> known;
         for (const Track& other : tracks_) known.push_back(other.name);
         xml_.fail(track.node,
@@ -192,7 +192,7 @@ class Parser {
     }
   }
 
-  /// The id of a type of this kind, which the document then has.
+  /// The id of a type of this kind; adds the type to the document if it is missing.
   std::string type_of(Stereotype stereotype, const std::string& values) {
     constexpr std::string_view kNames[] = {"primary", "subdivision", "inside", "parts", "attribute"};
     std::string id(kNames[static_cast<std::size_t>(stereotype)]);
@@ -269,10 +269,10 @@ class Parser {
   std::unordered_map<std::string, std::size_t> names_;
   std::unordered_set<std::string> attribute_tiers_;
   std::unordered_set<std::string> types_;
-  std::size_t elements_ = 0;  ///< of the file so far
+  std::size_t elements_ = 0;  ///< in the file so far
 };
 
-/// What the head names as specification; empty where it names none.
+/// The specification that the head names; empty if it names none.
 std::string specification_name(const eaf::Xml& xml) {
   const std::string source(xml.attribute(xml.root().child("head").child("specification"), "src"));
   return source.substr(source.find_last_of("/\\") + 1);  // npos + 1 is 0
@@ -307,17 +307,17 @@ std::filesystem::path specification_of(const std::filesystem::path& path) {
 File read(const std::filesystem::path& path) {
   const std::string text = read_file(path);
   const std::string named = specification_name(eaf::Xml(path.string(), text, kWanted));
-  const fs::path beside = specification_in(path.parent_path(), named);
-  if (beside.empty()) {
+  const fs::path specification_path = specification_in(path.parent_path(), named);
+  if (specification_path.empty()) {
     File file = read_text(path.string(), text);
     if (!named.empty()) {
-      file.notices.push_back({path.string(), fmt::format("its specification '{}' does not lie beside it: read without",
+      file.notices.push_back({path.string(), fmt::format("its specification '{}' is not in its folder; read without it",
                                                          printable(named))});
     }
     return file;
   }
-  const std::string specification = read_file(beside, kLargestSpecification);
-  parse_specification(beside.string(), specification);  // its faults by its own name
+  const std::string specification = read_file(specification_path, kLargestSpecification);
+  parse_specification(specification_path.string(), specification);  // reports its errors under its own name
   return read_text(path.string(), text, specification);
 }
 

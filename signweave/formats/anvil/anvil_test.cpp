@@ -47,7 +47,7 @@ std::string anvil_text(std::string_view tracks) {
   return fmt::format("<annotation><head/><body>{}</body></annotation>", tracks);
 }
 
-TEST(Anvil, TracksBecomeTiersUnderTheirWholeNames) {
+TEST(Anvil, TracksBecomeTiersWithTheirFullNames) {
   const File file = signs();
   std::vector<std::string> names;
   for (const Tier& one : file.document.tiers) names.push_back(one.id);
@@ -61,14 +61,14 @@ TEST(Anvil, SecondsAreRoundedToMilliseconds) {
   EXPECT_EQ(times(signs().document, "Hands.Gloss"), "a2 500-1250, a3 1250-2000, a4 3000-3500");
 }
 
-TEST(Anvil, TheLabelIsTheTokenOrWhatBearsTheTracksName) {
+TEST(Anvil, TheLabelIsTheTokenOrTheAttributeWithTheTracksName) {
   const File file = signs();
   EXPECT_THAT(labels_of_tier(file, "Hands.Gloss"), ElementsAre("BONJOUR", "TOUS", ""));
   EXPECT_THAT(labels_of_tier(file, "Hands.Phase"),
               ElementsAre("preparation", "stroke", "retraction", "preparation", "stroke", "hold"));
 }
 
-TEST(Anvil, TheLabelIsWhatTheSpecificationDisplays) {
+TEST(Anvil, TheLabelIsTheAttributeThatTheSpecificationDisplays) {
   EXPECT_THAT(labels_of_tier(signs(), "Hands.sentence"), ElementsAre("Bonjour à tous"));
 }
 
@@ -124,7 +124,7 @@ TEST(Anvil, PointsLastAMillisecondAndNeverOverlap) {
   EXPECT_EQ(times(signs().document, "nod"), "a12 900-900, a13 900-901");
 }
 
-TEST(Anvil, TheHeadTellsFilesAndProperties) {
+TEST(Anvil, TheHeadGivesFilesAndProperties) {
   const AnnotationDocument document = signs().document;
   ASSERT_THAT(document.linked_files, SizeIs(2));
   EXPECT_EQ(document.linked_files[0].url, "signs.mp4");
@@ -149,7 +149,7 @@ TEST(Anvil, WithoutSpecificationTheFirstAttributeIsTheLabel) {
 TEST(Anvil, AMissingSpecificationIsANotice) {
   const std::filesystem::path folder = testing::TempDir() + "/anvil_alone";
   std::filesystem::create_directories(folder / "inner");
-  // Only what lies beside the file counts, not the folder that the name leads to.
+  // Only the file's own folder counts, not the folder that the name refers to.
   std::filesystem::copy_file(testdata("anvil") / "signs.xml", folder / "signs.xml",
                              std::filesystem::copy_options::overwrite_existing);
   const std::filesystem::path file = folder / "inner" / "signs.anvil";
@@ -157,7 +157,7 @@ TEST(Anvil, AMissingSpecificationIsANotice) {
                              std::filesystem::copy_options::overwrite_existing);
   const File found = read(file);
   ASSERT_THAT(found.notices, SizeIs(1));
-  EXPECT_EQ(found.notices[0].text, "its specification 'signs.xml' does not lie beside it: read without");
+  EXPECT_EQ(found.notices[0].text, "its specification 'signs.xml' is not in its folder; read without it");
   EXPECT_EQ(specification_of(file), std::filesystem::path());
   EXPECT_EQ(specification_of(testdata("anvil") / "signs.anvil"), testdata("anvil") / "signs.xml");
 }
@@ -242,7 +242,7 @@ TEST(Anvil, TheFingerprintChangesWithTheSpecification) {
 }
 
 RC_GTEST_PROP(AnvilProperty, AnyElementsReadAndAreWrittenAsEaf, ()) {
-  // Primary elements one after another, each divided into pieces.
+  // Primary elements one after another, each divided into parts.
   std::string primary;
   std::string pieces;
   std::int64_t at = 0;
@@ -300,7 +300,7 @@ TEST_P(BrokenAnvil, IsRefusedWithOneClearLine) {
 INSTANTIATE_TEST_SUITE_P(Testdata, BrokenAnvil, testing::ValuesIn(broken_anvil_files()),
                          [](const auto& one) { return one.param; });
 
-TEST(BrokenAnvil, EveryBeginningOfAFileIsReadOrRefused) {
+TEST(BrokenAnvil, EveryPrefixOfAFileIsReadOrRefused) {
   const std::string whole = read_file(testdata("anvil") / "signs.anvil");
   for (std::size_t size = 0; size + 2 < whole.size(); ++size) {
     EXPECT_THROW(read_text("cut.anvil", std::string_view(whole).substr(0, size)), Error) << size;

@@ -18,7 +18,7 @@ class Reader {
   Specification run() {
     const pugi::xml_node root = xml_.root();
     if (std::string_view(root.name()) != "annotation-spec") {
-      xml_.fail(root, fmt::format("this is no ANVIL specification: its root element is <{}>; name another in the "
+      xml_.fail(root, fmt::format("this is not an ANVIL specification: its root element is <{}>; name another in the "
                                   "annotation file's head",
                                   printable(root.name())));
     }
@@ -33,7 +33,7 @@ class Reader {
   }
 
  private:
-  /// Groups in groups, without recursion.
+  /// Reads nested groups, without recursion.
   void read_group(pugi::xml_node body) {
     struct Level {
       pugi::xml_node next;
@@ -80,12 +80,12 @@ class Reader {
     specification_.tracks.push_back(std::move(track));
   }
 
-  /// A reference names a track wholly, or one of the same groups.
+  /// A reference gives a track's full name, or the name of one in the same groups.
   std::string whole_name(const TrackSpec& track) const {
     if (track.ref.empty() || names_.contains(track.ref)) return track.ref;
     const std::size_t dot = track.name.rfind('.');
-    const std::string beside = dot == std::string::npos ? track.ref : track.name.substr(0, dot + 1) + track.ref;
-    return names_.contains(beside) ? beside : track.ref;
+    const std::string sibling = dot == std::string::npos ? track.ref : track.name.substr(0, dot + 1) + track.ref;
+    return names_.contains(sibling) ? sibling : track.ref;
   }
 
   const eaf::Xml& xml_;

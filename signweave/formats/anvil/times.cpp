@@ -47,7 +47,7 @@ class Times {
   }
 
  private:
-  /// Without recursion: a chain of tracks may be as long as the file.
+  /// Without recursion, because a chain of tracks may be as long as the file.
   std::vector<std::size_t> references_first() const {
     enum class State : char { open, on_path, done };
     std::vector<State> states(tracks_.size(), State::open);
@@ -71,7 +71,7 @@ class Times {
     return order;
   }
 
-  /// Seconds as milliseconds; none where the attribute is missing.
+  /// Seconds as milliseconds; nullopt if the attribute is missing.
   std::optional<Milliseconds> time(const Element& one, const char* attribute) const {
     const std::string_view text = trimmed(xml_.attribute(one.node, attribute));
     if (text.empty()) return std::nullopt;
@@ -80,8 +80,8 @@ class Times {
     const auto [parsed, error] = std::from_chars(text.data(), end, seconds);
     const auto latest = static_cast<double>(eaf::kLatest) / 1e3;
     if (error != std::errc() || parsed != end || !(seconds >= 0) || !(seconds <= latest)) {
-      xml_.fail(one.node,
-                fmt::format("{} '{}' is no time; write seconds from 0 to {:.0f}", attribute, printable(text), latest));
+      xml_.fail(one.node, fmt::format("{} '{}' is not a time; write seconds from 0 to {:.0f}", attribute,
+                                      printable(text), latest));
     }
     return Milliseconds(std::llround(seconds * 1e3));
   }
@@ -94,7 +94,7 @@ class Times {
 
   TimeSpan checked(const Element& one, TimeSpan span) const {
     if (span.begin > span.end) {
-      xml_.fail(one.node, fmt::format("element {} ends before it begins; exchange its times", one.index));
+      xml_.fail(one.node, fmt::format("element {} ends before it begins; swap its times", one.index));
     }
     return span;
   }
@@ -104,7 +104,7 @@ class Times {
   }
 
   TimeSpan own_point(const Element& one) const {
-    const std::optional<Milliseconds> begin = time(one, "start");  // as some versions write it
+    const std::optional<Milliseconds> begin = time(one, "start");  // as written by some versions
     const Milliseconds at = begin ? *begin : required_time(one, "time");
     return {at, at + Milliseconds(1)};
   }
@@ -115,7 +115,7 @@ class Times {
     const Track& reference = tracks_[track.ref];
     const auto found = reference.places.find(index);
     if (found == reference.places.end()) {
-      xml_.fail(node, fmt::format("refers to element {} of track '{}', which is not there; name one that is", index,
+      xml_.fail(node, fmt::format("refers to element {} of track '{}', which does not exist; name one that does", index,
                                   printable(reference.name)));
     }
     return found->second;
@@ -142,13 +142,13 @@ class Times {
     const Element& first = elements[referred(track, one.node, "start")];
     const Element& last = elements[referred(track, one.node, "end")];
     if (first.span.begin > last.span.begin) {
-      xml_.fail(one.node, fmt::format("element {} ends before it begins; exchange start and end", one.index));
+      xml_.fail(one.node, fmt::format("element {} ends before it begins; swap start and end", one.index));
     }
     return checked(one, {first.span.begin, last.span.end});
   }
 
   void divide(Track& track) {
-    std::map<std::size_t, std::vector<std::size_t>> groups;  // reference -> its pieces, in the order of the file
+    std::map<std::size_t, std::vector<std::size_t>> groups;  // reference -> its parts, in file order
     for (std::size_t i = 0; i < track.elements.size(); ++i) {
       track.elements[i].parent = reference_of(track, track.elements[i]);
       groups[track.elements[i].parent].push_back(i);
@@ -218,7 +218,7 @@ class Times {
   const eaf::Xml& xml_;
   std::vector<Track>& tracks_;
   std::vector<Notice>& notices_;
-  std::set<std::pair<const Track*, std::size_t>> taken_;  ///< by singletons
+  std::set<std::pair<const Track*, std::size_t>> taken_;  ///< already have a singleton
 };
 
 }  // namespace
@@ -228,7 +228,7 @@ std::int64_t index_in(const eaf::Xml& xml, pugi::xml_node node, std::string_view
   const char* end = text.data() + text.size();
   const auto [parsed, error] = std::from_chars(text.data(), end, index);
   if (error != std::errc() || parsed != end || index < 0) {
-    xml.fail(node, fmt::format("{} '{}' is no index of an element; write a whole number from 0 on", attribute,
+    xml.fail(node, fmt::format("{} '{}' is not an element index; write a whole number of 0 or more", attribute,
                                printable(text)));
   }
   return index;

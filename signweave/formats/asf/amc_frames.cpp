@@ -11,10 +11,10 @@ namespace signweave::asf {
 namespace {
 
 constexpr std::size_t kAmcBytesPerReport = std::size_t{1} << 20;
-/// Bones times frames that a file with hardly any degrees of freedom may hold: 64 MiB of poses.
+/// Bones times frames allowed for a file with hardly any degrees of freedom: 64 MiB of poses.
 constexpr std::size_t kMostSparsePoses = std::size_t{1} << 22;
-constexpr std::size_t kMostNamed = 3;  ///< bones of those that a frame lacks
-constexpr double kLimitSlack = 1e-6;   ///< of what is printed; of a limit's size where that is past 1
+constexpr std::size_t kMostNamed = 3;  ///< number of missing bones that a message names
+constexpr double kLimitSlack = 1e-6;   ///< absolute, or relative for a limit beyond 1: the rounding of printed numbers
 
 std::string dofs_shown(const std::vector<Dof>& dofs) {
   std::string text;
@@ -52,8 +52,7 @@ void AmcReader::read_header() {
     if (degrees || same_word(word, ":radians")) {
       degrees_ = degrees;
     } else if (!same_word(word, ":fully-specified") && !unknown) {
-      unknown =
-          lines_.reader().notice(fmt::format("{} is nothing that is known here; it is passed over", in_quotes(word)));
+      unknown = lines_.reader().notice(fmt::format("{} is unknown and was ignored", in_quotes(word)));
     }
     if (!lines_.next()) lines_.fail("the file ends before its first frame; export it again");
   }
@@ -61,7 +60,7 @@ void AmcReader::read_header() {
   if (lines_.words().size() != 1 || !whole_number(lines_.first())) {
     const bool bone = bones_.contains(lines_.first()) || same_word(lines_.first(), "root");
     lines_.fail(fmt::format("expected the number of the first frame, found {}; {}", in_quotes(lines_.first()),
-                            bone ? "write it on a line of its own before its bones" : "this is no Acclaim motion"));
+                            bone ? "write it on a line of its own before its bones" : "this is not an Acclaim motion"));
   }
   lines_.back();
   header_bytes_ = lines_.reader().bytes_read();
@@ -90,7 +89,7 @@ std::span<const double> AmcReader::next() {
   }
   check_complete();
   ++frames_;
-  tell_progress();
+  report_progress();
   return numbers_;
 }
 
@@ -107,7 +106,7 @@ void AmcReader::read_number() {
     return;
   }
   if (number_ == before + 1) return;
-  if (number_ == before) lines_.fail(fmt::format("frame {} comes twice; remove one", number_));
+  if (number_ == before) lines_.fail(fmt::format("frame {} occurs twice; remove one", number_));
   if (number_ < before) {
     lines_.fail(fmt::format("frame {} comes after frame {}; put the frames in order", number_, before));
   }
@@ -118,14 +117,14 @@ void AmcReader::read_number() {
 
 std::size_t AmcReader::bone_of(std::string_view name) {
   const std::vector<Bone>& bones = figure_.bones;
-  // Each frame has the bones in one order, which is mostly that of the skeleton.
+  // Each frame lists the bones in one order, which is usually that of the skeleton.
   for (; guess_ < bones.size() && bones[guess_].dofs.empty(); ++guess_) {
   }
   if (guess_ < bones.size() && bones[guess_].name == name) return guess_;
   if (const auto found = bones_.find(name); found != bones_.end()) return found->second;
   if (same_word(name, "root")) return 0;
   if (lines_.is_keyword())
-    lines_.fail(fmt::format("{} stands behind the first frame; put it before it", in_quotes(name)));
+    lines_.fail(fmt::format("{} is after the first frame; move it to before that frame", in_quotes(name)));
   if (name.front() == '-' || (name.front() >= '0' && name.front() <= '9')) {
     lines_.fail(
         fmt::format("{} is neither a bone nor the number of a frame, which is a whole number on a line of its own",
@@ -134,7 +133,7 @@ std::size_t AmcReader::bone_of(std::string_view name) {
   std::vector<std::string> known;
   for (const Bone& bone : bones) known.push_back(bone.name);
   const std::string near = did_you_mean_bone(name, known);
-  lines_.fail(fmt::format("frame {} has the bone {}, which the skeleton has not{}", number_, in_quotes(name),
+  lines_.fail(fmt::format("frame {} has the bone {}, which the skeleton does not have{}", number_, in_quotes(name),
                           near.empty() ? "; name another skeleton" : near),
               near.empty() ? Remedies{{"skeleton", ""}} : Remedies{});
 }
@@ -144,7 +143,7 @@ void AmcReader::read_bone() {
   const Bone& bone = figure_.bones[at];
   if (!bone.dofs.empty()) guess_ = at + 1;
   if (seen_at_[at] > frame_line_) {
-    lines_.fail(fmt::format("bone {} comes twice in frame {}, in line {} too; remove one", in_quotes(bone.name),
+    lines_.fail(fmt::format("bone {} occurs twice in frame {}, also in line {}; remove one", in_quotes(bone.name),
                             number_, seen_at_[at]));
   }
   seen_at_[at] = lines_.line();
@@ -152,7 +151,7 @@ void AmcReader::read_bone() {
   if (words.size() != bone.dofs.size()) {
     const std::size_t count = bone.dofs.size();
     const std::string expected =
-        count == 0 ? "no numbers, for it has no dof"
+        count == 0 ? "no numbers, because it has no dof"
                    : fmt::format("{} number{} ({})", count, count == 1 ? "" : "s", dofs_shown(bone.dofs));
     lines_.fail(fmt::format("bone {} of frame {}: expected {}, found {}", in_quotes(bone.name), number_, expected,
                             words.size()));
@@ -201,7 +200,7 @@ void AmcReader::check_complete() const {
                  {{"skeleton", ""}});
 }
 
-/// So many bones without degrees of freedom that a few numbers would become gigabytes of joints at rest.
+/// So many bones without degrees of freedom that a few numbers would expand to gigabytes of joints at rest.
 bool AmcReader::is_sparse() const noexcept {
   return figure_.bones.size() > 16 * numbers_.size();
 }
@@ -213,11 +212,11 @@ void AmcReader::check_size() const {
   }
 }
 
-void AmcReader::tell_progress() {
+void AmcReader::report_progress() {
   const TextReader& reader = lines_.reader();
-  if (!progress_ || reader.total_bytes() == 0 || reader.bytes_read() < told_at_ + kAmcBytesPerReport) return;
-  told_at_ = reader.bytes_read();
-  progress_(std::min(1.0, static_cast<double>(told_at_) / static_cast<double>(reader.total_bytes())));
+  if (!progress_ || reader.total_bytes() == 0 || reader.bytes_read() < reported_at_ + kAmcBytesPerReport) return;
+  reported_at_ = reader.bytes_read();
+  progress_(std::min(1.0, static_cast<double>(reported_at_) / static_cast<double>(reader.total_bytes())));
 }
 
 void AmcReader::report() {

@@ -14,30 +14,30 @@
 #include "signweave/formats/asf/lines.h"
 #include "signweave/formats/asf/skeleton.h"
 
-/// The frames of an AMC file as numbers. Part of formats/asf, not for others.
+/// The frames of an AMC file as numbers. Internal to formats/asf.
 namespace signweave::asf {
 
-/// Reads the numbers of frame after frame. All that it is given must outlive it.
-/// More than fifteen members: a reader's state, of the file and of the frame at hand.
+/// Reads the numbers of one frame after another. All constructor arguments must outlive it.
+/// It has more than fifteen members: the state of the reader, of the file and of the current frame.
 class AmcReader {
  public:
-  /// Reads what stands before the first frame. Throws Error{bad_input}.
+  /// Reads everything before the first frame. Throws Error{bad_input}.
   AmcReader(TextReader& reader, const Figure& figure, std::function<void(double)> progress,
             std::vector<Notice>& notices);
 
-  /// Where the numbers of a bone begin in those of a frame.
+  /// The column of a bone's first number in a frame.
   std::size_t column_of(std::size_t bone) const noexcept { return columns_[bone]; }
-  /// Whether the angles are degrees: as this file says, else as the skeleton's.
+  /// Whether the angles are degrees, as this file says; if it does not, as the skeleton says.
   bool degrees() const noexcept { return degrees_; }
-  /// After the first frame, about how many are still to come, if they are as long as it is: never more than the file
-  /// can hold.
+  /// After the first frame, estimates the number of frames still to come, assuming they are as long as the first: never
+  /// more than the file can hold.
   std::int64_t frames_expected() const noexcept;
 
   /// The numbers of the next frame, [bone][dof], in the file's units; empty after the last. Valid until the next call.
-  /// Throws Error{bad_input} where a frame or a bone is missing, comes twice, or holds what is no number.
+  /// Throws Error{bad_input} if a frame or a bone is missing or occurs twice, or if a number is malformed.
   std::span<const double> next();
 
-  /// What was odd in the frames, once all are read.
+  /// Adds notices for what was unusual in the frames, once all are read.
   void report();
 
  private:
@@ -49,7 +49,7 @@ class AmcReader {
   void check_complete() const;
   void check_size() const;
   bool is_sparse() const noexcept;
-  void tell_progress();
+  void report_progress();
 
   Lines lines_;
   const Figure& figure_;
@@ -58,18 +58,18 @@ class AmcReader {
   std::unordered_map<std::string_view, std::size_t> bones_;  ///< by name
   std::vector<std::size_t> columns_;                         ///< [bone]
   std::vector<double> numbers_;
-  std::vector<std::size_t> seen_at_;  ///< [bone], the line of this frame that held it; before the frame's own: none
+  std::vector<std::size_t> seen_at_;  ///< [bone], its line in this frame; not yet seen if before `frame_line_`
   std::size_t header_bytes_ = 0;
   std::size_t moving_ = 0;  ///< bones with degrees of freedom
   std::size_t seen_ = 0;    ///< of them, in this frame
-  std::size_t guess_ = 0;   ///< the bone that is likely to come next
+  std::size_t guess_ = 0;   ///< the bone that is expected next
   bool degrees_ = true;
-  std::int64_t frames_ = 0;     ///< read so far
-  std::int64_t number_ = 0;     ///< that the file gives this frame
-  std::size_t frame_line_ = 0;  ///< where it stands
-  std::uint64_t outside_ = 0;   ///< numbers outside of their limits
-  Notice first_outside_;        ///< of which one is shown
-  std::size_t told_at_ = 0;     ///< bytes
+  std::int64_t frames_ = 0;      ///< read so far
+  std::int64_t number_ = 0;      ///< of this frame, as the file gives it
+  std::size_t frame_line_ = 0;   ///< line of the current frame's number
+  std::uint64_t outside_ = 0;    ///< numbers outside of their limits
+  Notice first_outside_;         ///< one of them, as an example
+  std::size_t reported_at_ = 0;  ///< bytes at the last progress call
 };
 
 }  // namespace signweave::asf

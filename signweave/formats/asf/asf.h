@@ -14,42 +14,44 @@
 
 /// Acclaim's motion files: a skeleton (.asf) and, for any number of recordings, the angles of its bones (.amc).
 ///
-/// A joint sits at the head of each bone and is called like the bone; joint 0 is `root`. The bones that hang on a bone
-/// stand at its tail, `direction` times `length` away; a bone on which none hangs has a tip there.
-/// Rotations follow each other as `dof` (of the root: `order`) lists them, each about a fixed axis: the first is
-/// innermost. With C the turn of a bone's `axis`, its joint turns by C · R · C⁻¹ and its translation dofs move it by
-/// C · t from its place in the rest pose; `l` is added to its length. The root turns by R · O and stands at P + t,
-/// where P and O are `position` and `orientation`. So the rest pose has no rotation but the root's O.
+/// A joint lies at the head of each bone and has the bone's name; joint 0 is `root`. The children of a bone start at
+/// its tail, `direction` times `length` away; a bone without children has a tip there.
+/// Rotations are applied in the order of `dof` (for the root: `order`), each about a fixed axis: the first is
+/// innermost. With C the rotation of a bone's `axis`, its joint's rotation is C · R · C⁻¹ and its translation dofs move
+/// it by C · t from its position in the rest pose; `l` is added to its length. The root's rotation is R · O and its
+/// position P + t, where P and O are `position` and `orientation`. The rest pose therefore has no rotation except the
+/// root's O.
 namespace signweave::asf {
 
 struct ReadOptions {
-  std::optional<std::filesystem::path> skeleton{};  ///< the .asf; `skeleton_of` finds it where not given
-  /// Metres per unit of the file's lengths after they are divided by the `length` of :units, which is what the format
-  /// means by it: 0.0254 for the files of CMU, whose `length 0.45` makes inches of their numbers. Guessed from the
-  /// body's stature where not given, as for BVH; of more than 1000 bones it must be given.
+  std::optional<std::filesystem::path> skeleton{};  ///< the .asf; if not given, the result of `skeleton_of`
+  /// Metres per unit of the file's lengths after they are divided by the `length` of :units, as the format defines
+  /// them: 0.0254 for the files of CMU, whose `length 0.45` converts their numbers to inches. If not given, it is
+  /// guessed from the body's stature, as for BVH; for more than 1000 bones it must be given.
   std::optional<double> unit{};
-  std::optional<bvh::UpAxis> up{};                  ///< y where not given
-  std::optional<FrameRate> rate{};                  ///< the file does not tell; 120 with a notice where not given
-  std::function<void(double fraction)> progress{};  ///< called now and then; may throw to cancel
+  std::optional<bvh::UpAxis> up{};                  ///< if not given, y
+  std::optional<FrameRate> rate{};                  ///< the file does not contain it; if not given, 120 with a notice
+  std::function<void(double fraction)> progress{};  ///< called from time to time; may throw to cancel
 };
 
 /// A recording as read: metres, Y up, right-handed.
 struct File {
   Motion motion;
-  std::filesystem::path skeleton;  ///< the .asf that was read; of text, its name
-  std::vector<Notice> notices;     ///< what was guessed, assumed, found odd
+  std::filesystem::path skeleton;  ///< the .asf that was read; for text, its name
+  std::vector<Notice> notices;     ///< what was guessed, assumed or found to be unusual
 };
 
-/// Reads a recording and its skeleton. Throws Error{bad_input, "FILE:LINE: …"} for anything that is no whole pair of
-/// files, Error{not_found} where there is no skeleton, Error{io}.
+/// Reads a recording and its skeleton. Throws Error{bad_input, "FILE:LINE: …"} if they are not a complete pair of
+/// files, Error{not_found} if there is no skeleton, Error{io}.
 File read(const std::filesystem::path& amc, const ReadOptions& options = {});
-/// The same from text; the names stand for the files in errors, and `options.skeleton` is not looked at.
+/// Reads from text; the names stand for the files in errors, and `options.skeleton` is ignored.
 File read_text(const std::string& asf_name, std::string_view asf, const std::string& amc_name, std::string_view amc,
                const ReadOptions& options = {});
 
-/// Which skeleton of the recording's folder belongs to it: the one of its stem; else of its stem up to a `_`, the last
-/// first (07_01.amc has 07.asf); else the only one there is. Upper and lower case of the ending `.asf` are one.
-/// Throws Error{not_found} that tells what was looked for, Error{io} where the folder cannot be read.
+/// The skeleton in the recording's folder that belongs to it: the one with its stem; otherwise with its stem up to a
+/// `_`, trying the last `_` first (07_01.amc has 07.asf); otherwise the only one in the folder. The case of the
+/// extension `.asf` is ignored. Throws Error{not_found} with the names that were tried, Error{io} if the folder cannot
+/// be read.
 std::filesystem::path skeleton_of(const std::filesystem::path& amc);
 
 }  // namespace signweave::asf

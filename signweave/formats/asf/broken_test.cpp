@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 const fs::path kTestdata = fs::path(SIGNWEAVE_SOURCE_DIR) / "testdata";
 const fs::path kBroken = kTestdata / "asf_broken";
 
-/// A pair of files of one name. Where one of the two is not there, the good one of testdata/asf stands for it.
+/// A pair of files with one name. If one of the two does not exist, the good one of testdata/asf is used instead.
 struct Pair {
   fs::path asf, amc;
 };
@@ -48,8 +48,8 @@ std::string fault_of_read(const Read& read_it) {
   return "no fault";
 }
 
-// x.expected beside x.asf and x.amc holds the message without the folder; a file without one fails here.
-TEST(AsfBroken, EveryBrokenFileIsRefusedWithItsLineAndItsMend) {
+// x.expected next to x.asf and x.amc holds the message without the folder; a file without one fails here.
+TEST(AsfBroken, EveryBrokenFileIsRefusedWithItsLineAndARepair) {
   const std::set<std::string> names = broken_names(false);
   ASSERT_GE(names.size(), 80u);
   for (const std::string& name : names) {
@@ -71,8 +71,8 @@ TEST(AsfBroken, EveryExpectationHasItsFile) {
   for (const std::string& name : broken_names(true)) EXPECT_TRUE(files.contains(name)) << name;
 }
 
-// A skeleton cut anywhere must be refused, never crash, and never be taken for whole, unless only blanks are lost.
-TEST(AsfBroken, ASkeletonCutAnywhereIsRefused) {
+// A truncated skeleton must be refused, and must never crash or be accepted as complete, unless only blanks are lost.
+TEST(AsfBroken, ATruncatedSkeletonIsRefused) {
   for (const char* name : {"two", "07"}) {
     const std::string asf = read_file(kTestdata / "asf" / (std::string(name) + ".asf"));
     const std::string amc = read_file(kTestdata / "asf" / (name == std::string("two") ? "two.amc" : "07_01.amc"));
@@ -84,7 +84,7 @@ TEST(AsfBroken, ASkeletonCutAnywhereIsRefused) {
   }
 }
 
-// The format does not tell how many frames there are, so only whole frames may be missing.
+// The format does not contain the number of frames, so only whole frames may be missing.
 TEST(AsfBroken, AMotionCutWithinAFrameIsRefused) {
   const std::string asf = read_file(kTestdata / "asf" / "two.asf");
   const std::string amc = read_file(kTestdata / "asf" / "two.amc");
@@ -98,8 +98,8 @@ TEST(AsfBroken, AMotionCutWithinAFrameIsRefused) {
   }
 }
 
-// Tens of thousands of bones at rest and a frame of a few bytes: the file must not become gigabytes.
-TEST(AsfBroken, FewNumbersForManyBonesAreRefusedBeforeTheyFillTheMemory) {
+// Tens of thousands of bones at rest and a frame of a few bytes: the file must not expand to gigabytes.
+TEST(AsfBroken, FewNumbersForManyBonesAreRefusedBeforeAllocation) {
   std::string asf = ":root\norder TX\n:bonedata\n";
   std::string hierarchy = ":hierarchy\nbegin\n";
   for (int i = 0; i < 20'000; ++i) {
@@ -121,7 +121,7 @@ TEST(AsfBroken, MoreBonesThanAMotionHoldsAreRefused) {
   EXPECT_EQ(fault, "a:327674: more than 65534 bones; split the skeleton");
 }
 
-// Guessing goes from each head to each foot, and every bone here is called like both.
+// The guess examines each path from a head to a foot, and every bone here is named like both.
 TEST(AsfBroken, ASkeletonOfThousandsOfBonesNeedsAUnit) {
   std::string asf = ":root\norder TX\n:bonedata\n";
   std::string hierarchy = ":hierarchy\nbegin\n";
@@ -132,11 +132,11 @@ TEST(AsfBroken, ASkeletonOfThousandsOfBonesNeedsAUnit) {
   }
   asf += hierarchy + "end\n";
   EXPECT_EQ(fault_of_read([&] { read_text("a", asf, "b", "1\nroot 0\n"); }),
-            "a: 5001 bones are no body whose unit can be guessed; give --unit");
+            "a: 5001 bones are no body whose unit can be guessed");
   EXPECT_EQ(read_text("a", asf, "b", "1\nroot 0\n", {.unit = 1.0}).motion.frame_count(), 1);
 }
 
-TEST(AsfBroken, AUnitThatIsNoneIsRefused) {
+TEST(AsfBroken, AnInvalidUnitIsRefused) {
   for (const double unit : {0.0, -1.0, 1e7, std::numeric_limits<double>::quiet_NaN()}) {
     EXPECT_THROW(read(kTestdata / "asf" / "two.amc", {.unit = unit}), Error) << unit;
   }

@@ -13,7 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A folder of its own with empty files.
+/// A separate folder with empty files.
 class AsfFind : public testing::Test {
  public:
   ~AsfFind() override { fs::remove_all(folder_); }
@@ -41,7 +41,7 @@ TEST_F(AsfFind, TheSameStemThenTheStemUpToAnUnderscoreThenTheOnlyOne) {
   EXPECT_EQ(skeleton_of(folder_ / "07_02.amc"), folder_ / "07.asf");
 }
 
-TEST_F(AsfFind, WithoutASkeletonTheErrorTellsWhatWasLookedFor) {
+TEST_F(AsfFind, WithoutASkeletonTheErrorListsTheNamesThatWereTried) {
   const auto fault = [&] {
     try {
       skeleton_of(folder_ / "07_01.amc");
@@ -54,10 +54,10 @@ TEST_F(AsfFind, WithoutASkeletonTheErrorTellsWhatWasLookedFor) {
   const std::string head = (folder_ / "07_01.amc").string() +
                            ": no skeleton belongs to it: looked for 07_01.asf, 07.asf in " + folder_.string();
   fs::create_directory(folder_ / "07.asf");
-  EXPECT_EQ(fault(), head + ", where is no .asf file; name it with --skeleton");
+  EXPECT_EQ(fault(), head + ", where is no .asf file");
   put("a.asf");
   put("b.asf");
-  EXPECT_EQ(fault(), head + ", where are 2 other .asf files; name it with --skeleton");
+  EXPECT_EQ(fault(), head + ", where are 2 other .asf files");
 }
 
 TEST_F(AsfFind, TheSkeletonThatIsNamedIsRead) {
@@ -70,7 +70,7 @@ TEST_F(AsfFind, TheSkeletonThatIsNamedIsRead) {
   EXPECT_EQ(file.motion.frame_count(), 1);
 }
 
-TEST_F(AsfFind, AMissingRecordingIsToldBeforeItsSkeleton) {
+TEST_F(AsfFind, AMissingRecordingIsReportedBeforeItsSkeleton) {
   try {
     read(folder_ / "none.amc");
     FAIL();

@@ -15,7 +15,7 @@ namespace {
 
 using Children = std::vector<std::vector<JointIndex>>;  // [bone], in the file's order
 
-Children children_told(std::vector<Bone>& bones, const std::vector<Kinship>& kinships, const std::string& file) {
+Children children_given(std::vector<Bone>& bones, const std::vector<Kinship>& kinships, const std::string& file) {
   std::unordered_map<std::string_view, JointIndex> index;
   for (std::size_t i = 0; i < bones.size(); ++i) index.emplace(bones[i].name, static_cast<JointIndex>(i));
   const auto bone_of = [&](const std::string& name, std::size_t line) {
@@ -25,41 +25,42 @@ Children children_told(std::vector<Bone>& bones, const std::vector<Kinship>& kin
     std::vector<std::string> known;
     for (const Bone& bone : bones) known.push_back(bone.name);
     refuse_kinship(file, line,
-                   fmt::format(":hierarchy names {}, which is no bone of :bonedata{}", in_quotes(name),
+                   fmt::format(":hierarchy names {}, which is not a bone of :bonedata{}", in_quotes(name),
                                did_you_mean_bone(name, known)));
   };
 
   Children children(bones.size());
-  std::vector<std::size_t> told_at(bones.size(), 0);
+  std::vector<std::size_t> given_at(bones.size(), 0);
   for (const Kinship& kinship : kinships) {
     const JointIndex parent = bone_of(kinship.names.front(), kinship.line);
     for (std::size_t i = 1; i < kinship.names.size(); ++i) {
       const JointIndex child = bone_of(kinship.names[i], kinship.line);
       const auto at = static_cast<std::size_t>(child);
       const std::string name = in_quotes(bones[at].name);
-      if (child == 0) refuse_kinship(file, kinship.line, "the root hangs on a bone; it stands first and has no parent");
+      if (child == 0)
+        refuse_kinship(file, kinship.line, "the root is listed under a bone; it comes first and has no parent");
       if (child == parent)
-        refuse_kinship(file, kinship.line, fmt::format("bone {} hangs on itself; name another as its parent", name));
+        refuse_kinship(file, kinship.line, fmt::format("bone {} is its own parent; name another", name));
       if (bones[at].parent == parent) {
         refuse_kinship(file, kinship.line,
-                       fmt::format("bone {} stands twice on {}, in line {} too; remove one", name,
-                                   in_quotes(bones[static_cast<std::size_t>(parent)].name), told_at[at]));
+                       fmt::format("bone {} is listed twice under {}, also in line {}; remove one", name,
+                                   in_quotes(bones[static_cast<std::size_t>(parent)].name), given_at[at]));
       }
       if (bones[at].parent != kNoJoint) {
         refuse_kinship(file, kinship.line,
-                       fmt::format("bone {} hangs on {} and, by line {}, on {}; a bone has one parent", name,
-                                   in_quotes(bones[static_cast<std::size_t>(parent)].name), told_at[at],
+                       fmt::format("bone {} has the parent {} and, in line {}, {}; a bone has one parent", name,
+                                   in_quotes(bones[static_cast<std::size_t>(parent)].name), given_at[at],
                                    in_quotes(bones[static_cast<std::size_t>(bones[at].parent)].name)));
       }
       bones[at].parent = parent;
-      told_at[at] = kinship.line;
+      given_at[at] = kinship.line;
       children[static_cast<std::size_t>(parent)].push_back(child);
     }
   }
   return children;
 }
 
-/// All that hang on the root, parents first, depth first: by a list of its own, for chains are thousands long.
+/// All bones below the root, parents first, depth first, with an explicit list, because chains are thousands long.
 std::vector<JointIndex> depth_first(const Children& children) {
   std::vector<JointIndex> order;
   std::vector<JointIndex> open{0};
@@ -73,7 +74,7 @@ std::vector<JointIndex> depth_first(const Children& children) {
   return order;
 }
 
-/// Some bone does not hang on the root: tells which, and why.
+/// Reports a bone that is not below the root, and the reason.
 [[noreturn]] void refuse_loose(const std::vector<Bone>& bones, const std::string& file, std::size_t end_line) {
   std::size_t loose = 0;
   for (std::size_t i = 1; i < bones.size() && loose == 0; ++i) {
@@ -82,9 +83,9 @@ std::vector<JointIndex> depth_first(const Children& children) {
   if (loose != 0) {
     refuse_kinship(
         file, bones[loose].line,
-        fmt::format("bone {} hangs on nothing; name it in :hierarchy after its parent", in_quotes(bones[loose].name)));
+        fmt::format("bone {} has no parent; name it in :hierarchy after its parent", in_quotes(bones[loose].name)));
   }
-  // Each bone has a parent, so whoever goes up from one that does not come to the root comes to a circle.
+  // Each bone has a parent, so following parents from a bone that does not reach the root leads into a cycle.
   std::vector<std::size_t> seen_from(bones.size(), 0);
   for (std::size_t i = 1; i < bones.size(); ++i) {
     std::size_t at = i;
@@ -92,18 +93,18 @@ std::vector<JointIndex> depth_first(const Children& children) {
     if (at != 0 && seen_from[at] == i) {
       refuse_kinship(
           file, end_line,
-          fmt::format("bone {} hangs on itself by way of {}; one of this circle must hang on the root",
+          fmt::format("bone {} is its own ancestor through {}; one bone of this cycle must be under the root",
                       in_quotes(bones[at].name), in_quotes(bones[static_cast<std::size_t>(bones[at].parent)].name)));
     }
   }
-  refuse_kinship(file, end_line, "not every bone hangs on the root");
+  refuse_kinship(file, end_line, "not every bone is under the root");
 }
 
 }  // namespace
 
 void order_bones(std::vector<Bone>& bones, const std::vector<Kinship>& kinships, const std::string& file,
                  std::size_t end_line) {
-  const Children children = children_told(bones, kinships, file);
+  const Children children = children_given(bones, kinships, file);
   const std::vector<JointIndex> order = depth_first(children);
   if (order.size() != bones.size()) refuse_loose(bones, file, end_line);
   std::vector<JointIndex> place(bones.size(), 0);

@@ -13,13 +13,13 @@ namespace {
 
 constexpr std::size_t kMostCompared = 1000;     ///< names
 constexpr std::size_t kLongestCompared = 64;    ///< bytes
-constexpr std::size_t kMostDigitsOfFrame = 18;  ///< so that no number of a frame overflows
+constexpr std::size_t kMostDigitsOfFrame = 18;  ///< so that a frame number does not overflow
 
 constexpr bool parts_words(char c) noexcept {
   return c == ' ' || (c >= '\t' && c <= '\r') || c == ',' || c == '(' || c == ')';
 }
 
-/// A number that no double can hold, which is as good as 0 where it is small.
+/// True for a number outside the range of a double that is too small, not too large.
 bool is_nearly_zero(std::string_view text) noexcept {
   long double value = 1;
   std::from_chars(text.data(), text.data() + text.size(), value);
@@ -80,7 +80,7 @@ double number_of(std::string_view word, const Lines& lines, std::string_view wha
     lines.fail(fmt::format("expected {}, found {}, which is no finite number", what, in_quotes(word)));
   }
   if (std::abs(value) > kLargestNumber) {
-    lines.fail(fmt::format("{:g} is too large for {}; nothing past {:g} is taken for a measurement", value, what,
+    lines.fail(fmt::format("{:g} is too large for {}; values beyond {:g} are not accepted as measurements", value, what,
                            kLargestNumber));
   }
   return value;

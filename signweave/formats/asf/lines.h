@@ -9,30 +9,30 @@
 
 #include "signweave/core/text_reader.h"
 
-/// The lines of ASF and AMC files. Part of formats/asf, not for others.
+/// The lines of ASF and AMC files. Internal to formats/asf.
 namespace signweave::asf {
 
-/// Lengths and angles past this are no measurements, and would not survive the arithmetic.
+/// Lengths and angles beyond this are not measurements, and would overflow the arithmetic.
 inline constexpr double kLargestNumber = 1e9;
 
-/// Line after line as words, between white space, commas and parentheses. `#` begins a comment. Lines without words
-/// are passed over.
+/// One line after another as words, separated by white space, commas and parentheses. `#` begins a comment. Lines
+/// without words are skipped.
 class Lines {
  public:
   /// The reader must outlive it.
   explicit Lines(TextReader& reader) : reader_(reader) {}
 
-  /// Goes to the next line that holds words; false at the end of the file.
+  /// Advances to the next line that has words; false at the end of the file.
   bool next();
-  /// The next call of `next` stays at this line.
+  /// Makes the next call of `next` stay at this line.
   void back() noexcept { again_ = true; }
 
-  /// The words of the line, borrowed until the next call of `next`; none before the first.
+  /// The words of the line, valid until the next call of `next`; empty before the first.
   std::span<const std::string_view> words() const noexcept { return words_; }
   std::string_view first() const noexcept { return words_.empty() ? std::string_view() : words_.front(); }
-  /// True where the line begins a section: its first word begins with a colon.
+  /// True if the line begins a section: its first word begins with a colon.
   bool is_keyword() const noexcept { return first().starts_with(':'); }
-  /// The words after the first as `count` numbers within ±kLargestNumber; `what` says what they are ("direction").
+  /// The words after the first as `count` numbers within ±kLargestNumber; `what` names them in errors ("direction").
   std::vector<double> numbers(std::size_t count, std::string_view what) const;
 
   const TextReader& reader() const noexcept { return reader_; }
@@ -49,20 +49,20 @@ class Lines {
   bool again_ = false;
 };
 
-/// A word as a finite number within ±kLargestNumber; what is too small for a double is 0. Otherwise fails as `lines`
+/// A word as a finite number within ±kLargestNumber; values too small for a double are 0. Otherwise fails as `lines`
 /// does, with `what` for what was expected.
 double number_of(std::string_view word, const Lines& lines, std::string_view what);
 
-/// A word of nothing but digits, or none; one past 10^18 is none either.
+/// The value of a word of at most 18 digits and nothing else; otherwise nullopt.
 std::optional<std::int64_t> whole_number(std::string_view word) noexcept;
 
-/// True where a word is this one; upper and lower case of ASCII are one.
+/// True if two words are equal, ignoring ASCII case.
 bool same_word(std::string_view a, std::string_view b) noexcept;
 
-/// "'word'", fit for a message.
+/// "'word'", made printable for a message.
 std::string in_quotes(std::string_view word);
 
-/// "; did you mean A or B?", or nothing; what is too much to compare is not compared.
+/// "; did you mean A or B?", or an empty string; too long a list is not compared.
 std::string did_you_mean_bone(std::string_view wanted, std::span<const std::string> known);
 
 }  // namespace signweave::asf

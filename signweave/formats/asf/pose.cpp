@@ -17,7 +17,7 @@ bool head_moves(const Figure& figure, const Bone& bone) noexcept {
   return bone.parent != kNoJoint && has_length_dof(figure.bones[static_cast<std::size_t>(bone.parent)]);
 }
 
-/// Where a bone's head is in its parent's space, at rest, in the file's numbers.
+/// The position of a bone's head in its parent's space, at rest, in the file's numbers.
 Eigen::Vector3d rest_head(const Figure& figure, const Bone& bone) noexcept {
   return bone.parent == kNoJoint ? figure.position : figure.bones[static_cast<std::size_t>(bone.parent)].tail;
 }
@@ -57,7 +57,7 @@ RestFigure rest_of(const Figure& figure) {
 }
 
 Poser::Poser(const Figure& figure, bool degrees)
-    : figure_(figure), degrees_(degrees), pieces_(figure.bones.size()), stretches_(figure.bones.size(), 0.0) {
+    : figure_(figure), degrees_(degrees), pieces_(figure.bones.size()), added_lengths_(figure.bones.size(), 0.0) {
   std::size_t column = 0;
   for (std::size_t i = 0; i < figure.bones.size(); ++i) {
     const Bone& bone = figure.bones[i];
@@ -83,7 +83,7 @@ void Poser::apply(std::span<const double> numbers, MutablePoseView pose) {
       } else if (is_translation(bone.dofs[d])) {
         moved[axis_of(bone.dofs[d])] = number;
       } else {
-        stretches_[i] = number;
+        added_lengths_[i] = number;
       }
     }
     const bool root = bone.parent == kNoJoint;
@@ -96,7 +96,7 @@ void Poser::apply(std::span<const double> numbers, MutablePoseView pose) {
     Eigen::Vector3d head = rest_head(figure_, bone) + moved;
     if (!root) {
       const auto parent = static_cast<std::size_t>(bone.parent);
-      head += stretches_[parent] * figure_.bones[parent].direction;
+      head += added_lengths_[parent] * figure_.bones[parent].direction;
     }
     pose.translations[translation++] = Eigen::Vector3d(head / figure_.length_unit).cast<float>();
   }

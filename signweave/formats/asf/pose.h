@@ -8,29 +8,29 @@
 #include "signweave/formats/asf/skeleton.h"
 #include "signweave/motion/motion.h"
 
-/// From the numbers of a frame to a pose. Part of formats/asf, not for others.
+/// Converts the numbers of a frame to a pose. Internal to formats/asf.
 namespace signweave::asf {
 
 /// A rotation by an angle about one of the figure's axes, 0 to 2 for x to z.
 Eigen::Quaterniond turn_about(int axis, double angle, bool degrees) noexcept;
 
-/// Three angles, one after the other about fixed axes.
+/// Three rotations applied in order about fixed axes.
 Eigen::Quaterniond rotation_of(const Turn& turn, bool degrees) noexcept;
 
-/// The figure in lengths of :units (not yet metres), at rest.
+/// The figure at rest, in lengths of :units (not yet metres).
 struct RestFigure {
-  std::vector<Joint> joints;  ///< [bone]; translated where a frame can move one
+  std::vector<Joint> joints;  ///< [bone]; translated if a frame can move it
   std::vector<Tip> tips;
 };
 RestFigure rest_of(const Figure& figure);
 
-/// Makes the poses of frame after frame. The figure must outlive it.
+/// Computes the poses of one frame after another. The figure must outlive it.
 class Poser {
  public:
-  /// `degrees` tells the angles of the frames, not those of the figure.
+  /// `degrees` applies to the angles of the frames, not to those of the figure.
   Poser(const Figure& figure, bool degrees);
 
-  /// Of `numbers`, [bone][dof], makes a pose in lengths of :units.
+  /// Computes a pose in lengths of :units from `numbers`, [bone][dof].
   void apply(std::span<const double> numbers, MutablePoseView pose);
 
  private:
@@ -42,9 +42,9 @@ class Poser {
 
   const Figure& figure_;
   bool degrees_;
-  std::vector<Piece> pieces_;      ///< [bone]
-  std::vector<bool> translated_;   ///< [bone]
-  std::vector<double> stretches_;  ///< [bone], of this frame
+  std::vector<Piece> pieces_;          ///< [bone]
+  std::vector<bool> translated_;       ///< [bone]
+  std::vector<double> added_lengths_;  ///< [bone], of this frame
 };
 
 }  // namespace signweave::asf

@@ -1,5 +1,5 @@
-// A skeleton and its frames are drawn, written as text and read; where every joint and tip is, is then held against
-// an evaluator of this file's own, which goes from each bone up to the root in matrices of double precision.
+// A skeleton and its frames are generated, written as text and read. The positions of all joints and tips are then
+// compared with an evaluator in this file, which follows each bone up to the root with matrices of double precision.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -26,7 +26,7 @@ struct DrawnBone {
   int parent = -1;  ///< the root is 0
   Vector3d direction = Vector3d::Zero();
   double length = 0;
-  Vector3d axis = Vector3d::Zero();  ///< of the root its orientation
+  Vector3d axis = Vector3d::Zero();  ///< for the root, its orientation
   std::string order = "XYZ";
   std::vector<std::string> dofs;
 };
@@ -256,8 +256,8 @@ RC_GTEST_PROP(AsfProperty, JointsAndTipsAreWhereMatricesPutThem, ()) {
   }
 }
 
-// The format does not tell how many frames there are: what is cut off is refused, or leaves the frames before as they
-// were; only the last number may have lost digits.
+// The format does not contain the number of frames: a truncated file is refused, or leaves the preceding frames
+// unchanged; only the last number may have lost digits.
 RC_GTEST_PROP(AsfProperty, FramesCutOffAreFewerOrRefused, ()) {
   const DrawnSkeleton drawn = draw();
   const std::string asf = asf_text(drawn);

@@ -15,7 +15,7 @@ namespace signweave::asf {
 namespace {
 
 constexpr FrameRate kAcclaimRate{120, 1};
-/// The guess looks at each way from a head to a foot; whoever names thousands of bones so would have it look for hours.
+/// The guess examines each path from a head to a foot; with thousands of bones with such names it would take hours.
 constexpr std::size_t kMostBonesOfAGuess = 1000;
 
 void check_unit_option(const ReadOptions& options) {
@@ -24,7 +24,7 @@ void check_unit_option(const ReadOptions& options) {
   }
 }
 
-/// Metres per unit of length: as told, else as guessed, and then with a notice.
+/// Metres per unit of length: from the options, or else guessed, with a notice.
 double settle_unit(const Motion& motion, const Figure& figure, const ReadOptions& options, bvh::UpAxis up,
                    const std::string& name, std::vector<Notice>& notices) {
   if (options.unit) return *options.unit;
@@ -41,7 +41,7 @@ double settle_unit(const Motion& motion, const Figure& figure, const ReadOptions
   return guess.unit;
 }
 
-/// Takes poses and rest pose from the file's axes and lengths to metres, Y up.
+/// Converts poses and rest pose from the file's axes and lengths to metres, Y up.
 void to_metres_y_up(Motion& motion, RestFigure& rest, bvh::UpAxis up, double unit) {
   const bvh::Space space{.up = up, .mirrored = false};
   const auto converted = [&](const Eigen::Vector3f& v) {
@@ -56,19 +56,19 @@ void to_metres_y_up(Motion& motion, RestFigure& rest, bvh::UpAxis up, double uni
   for (Tip& tip : rest.tips) tip.offset = converted(tip.offset);
 }
 
-void note_stretches(const Figure& figure, const RestFigure& rest, const std::string& name,
-                    std::vector<Notice>& notices) {
-  const auto stretches = [](const Bone& bone) {
+void note_length_dofs(const Figure& figure, const RestFigure& rest, const std::string& name,
+                      std::vector<Notice>& notices) {
+  const auto has_length_dof = [](const Bone& bone) {
     return std::find(bone.dofs.begin(), bone.dofs.end(), Dof::l) != bone.dofs.end();
   };
-  if (std::none_of(figure.bones.begin(), figure.bones.end(), stretches)) return;
-  notices.push_back({name, "dof l is taken as what is added to a bone's length, so that 0 is the rest pose"});
+  if (std::none_of(figure.bones.begin(), figure.bones.end(), has_length_dof)) return;
+  notices.push_back({name, "dof l is read as an addition to a bone's length, so 0 is the rest pose"});
   for (const Tip& tip : rest.tips) {
     const Bone& bone = figure.bones[static_cast<std::size_t>(tip.joint)];
-    if (!stretches(bone)) continue;
-    notices.push_back({fmt::format("{}:{}", name, bone.line),
-                       fmt::format("no bone hangs on {}, so its l moves nothing but its tip, which stays at rest",
-                                   in_quotes(bone.name))});
+    if (!has_length_dof(bone)) continue;
+    notices.push_back(
+        {fmt::format("{}:{}", name, bone.line),
+         fmt::format("{} has no children, so its l moves only its tip, which stays at rest", in_quotes(bone.name))});
     return;
   }
 }
@@ -78,10 +78,10 @@ File read_pair(TextReader& asf, TextReader& amc, const ReadOptions& options) {
   File file;
   const Figure figure = read_figure(asf, file.notices);
   RestFigure rest = rest_of(figure);
-  note_stretches(figure, rest, asf.name(), file.notices);
+  note_length_dofs(figure, rest, asf.name(), file.notices);
 
-  // The unit is known only when all frames are read, so the skeleton that the motion shares is exchanged then, before
-  // anybody else has seen it.
+  // The unit is known only after all frames are read, so the skeleton that the motion shares is replaced then, before
+  // any other code has access to it.
   const auto skeleton = std::make_shared<Skeleton>(rest.joints, rest.tips);
   file.motion = Motion(skeleton, options.rate.value_or(kAcclaimRate));
   AmcReader frames(amc, figure, options.progress, file.notices);

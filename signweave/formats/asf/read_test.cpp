@@ -32,7 +32,7 @@ void expect_turn(const Eigen::Quaternionf& is, double degrees, const Eigen::Vect
       << is.coeffs().transpose() << " instead of " << should.coeffs().transpose();
 }
 
-/// Of joints and tips of one frame, where they are.
+/// The positions of the joints and tips of one frame.
 struct Places {
   ModelPose pose;
   const Motion& motion;
@@ -45,14 +45,14 @@ Places places(const Motion& motion, std::int64_t frame) {
   return {to_model_space(motion.skeleton(), motion.pose(frame)), motion};
 }
 
-bool tells(const std::vector<Notice>& notices, std::string_view part) {
+bool has_notice(const std::vector<Notice>& notices, std::string_view part) {
   for (const Notice& notice : notices) {
     if ((notice.where + ": " + notice.text).find(part) != std::string::npos) return true;
   }
   return false;
 }
 
-TEST(AsfRead, JointsSitAtTheHeadsOfBonesAndTheLastHaveTips) {
+TEST(AsfRead, JointsAreAtTheHeadsOfBonesAndTheLastHaveTips) {
   const File file = read(kGoodFiles / "two.amc", kMetres);
   const Skeleton& skeleton = file.motion.skeleton();
   ASSERT_EQ(skeleton.joint_count(), 3u);
@@ -71,7 +71,8 @@ TEST(AsfRead, JointsSitAtTheHeadsOfBonesAndTheLastHaveTips) {
   EXPECT_TRUE(keeps_hemisphere(file.motion));
 }
 
-// lower's x axis is the figure's y: its x turned by 90 about z. There 90 degrees take x to -z.
+// lower's x axis is the figure's y, because its x is turned by 90 about z. Turning by 90 degrees about it takes x to
+// -z.
 TEST(AsfRead, ABoneTurnsAboutItsOwnAxes) {
   const Motion motion = read(kGoodFiles / "two.amc", kMetres).motion;
   ASSERT_EQ(motion.frame_count(), 2);
@@ -85,7 +86,8 @@ TEST(AsfRead, ABoneTurnsAboutItsOwnAxes) {
   expect_same_place(second.tip(0), {-1, 4, 0});
 }
 
-// Where the bone's x and y point, by hand: each axis turned by 90 degrees about one fixed axis after the other.
+// The directions of the bone's x and y, computed by hand: each axis is turned by 90 degrees about one fixed axis after
+// the other.
 TEST(AsfRead, EachOrderOfAnAxisTurnsAboutFixedAxes) {
   struct Case {
     const char* order;
@@ -103,7 +105,7 @@ TEST(AsfRead, EachOrderOfAnAxisTurnsAboutFixedAxes) {
   }
 }
 
-// 90 about z, then 90 about x: x goes to y and on to z. The other way round x stays, and goes to y.
+// 90 about z, then 90 about x: x goes to y and then to z. In the other order x stays, and then goes to y.
 TEST(AsfRead, DofsTurnInTheirOrder) {
   const auto tip_of = [](const char* dof) {
     const Motion motion = read_text("a", one_bone({.dof = dof}), "b", "1\nroot 0 0 0\nbone 90 90\n", kMetres).motion;
@@ -123,17 +125,17 @@ TEST(AsfRead, TheRootsOrderIsThatOfColumnsAndOfTurns) {
 }
 
 // The orientation takes x to -z, which 90 about x then takes to y; position and translation are added.
-TEST(AsfRead, APresetRootStandsAndTurnsBeforeEachFrameDoes) {
+TEST(AsfRead, APresetRootIsAppliedBeforeEachFrame) {
   const std::string asf =
       one_bone({.order = "TX TY TZ RX", .root = "position 10 20 30\norientation 0 90 0", .dof = ""});
   const File file = read_text("a", asf, "b", "1\nroot 1 2 3 90\n", kMetres);
   const Places at = places(file.motion, 0);
   expect_same_place(at["root"], {11, 22, 33});
   expect_same_place(at.tip(0), {11, 24, 33});
-  EXPECT_TRUE(tells(file.notices, "pre-set"));
+  EXPECT_TRUE(has_notice(file.notices, "pre-set"));
 }
 
-TEST(AsfRead, ARootWithoutTranslationsStandsAtItsPosition) {
+TEST(AsfRead, ARootWithoutTranslationsIsAtItsPosition) {
   const std::string asf = one_bone({.order = "RX", .root = "position 1 2 3", .dof = "rx"});
   const File file = read_text("a", asf, "b", "1\nroot 0\nbone 0\n", kMetres);
   EXPECT_EQ(file.motion.skeleton().translation_count(), 0u);
@@ -152,7 +154,7 @@ TEST(AsfRead, RadiansOfTheSkeletonHoldForTheMotionUnlessItSaysDegrees) {
               Eigen::Vector3d::UnitY());
 }
 
-// Turned by 90 about z, the bone's x is y; its place at rest is the tail of the bone before, (2, 0, 0).
+// The bone is turned by 90 about z, so its x is y; its position at rest is the tail of the previous bone, (2, 0, 0).
 TEST(AsfRead, TranslationDofsMoveABoneAlongItsOwnAxes) {
   const std::string asf = two_bones("0 0 90 XYZ", "tx tz rx");
   const Motion motion = read_text("a", asf, "b", "1\nroot 0 0 0\nbone 0\nlast 5 7 0\n", kMetres).motion;
@@ -167,13 +169,13 @@ TEST(AsfRead, ALengthDofIsAddedToTheBoneBeforeItsChildren) {
       read_text("a", asf, "b", "1\nroot 0 0 0\nbone 90 0.5\nlast 0\n2\nroot 0 0 0\nlast 0\nbone 0 0\n", kMetres);
   expect_same_place(places(file.motion, 0)["last"], {0, 2.5f, 0});
   expect_same_place(places(file.motion, 1)["last"], {2, 0, 0});
-  EXPECT_TRUE(tells(file.notices, "dof l is taken as what is added"));
-  EXPECT_FALSE(tells(file.notices, "no bone hangs on"));
+  EXPECT_TRUE(has_notice(file.notices, "dof l is read as an addition"));
+  EXPECT_FALSE(has_notice(file.notices, "has no children"));
   const File end = read_text("a", one_bone({.dof = "l"}), "b", "1\nroot 0 0 0\nbone 9\n", kMetres);
-  EXPECT_TRUE(tells(end.notices, "no bone hangs on 'bone', so its l moves nothing"));
+  EXPECT_TRUE(has_notice(end.notices, "'bone' has no children, so its l moves only its tip"));
 }
 
-TEST(AsfRead, LengthsAreDividedByTheUnitThenTakenToMetres) {
+TEST(AsfRead, LengthsAreDividedByTheUnitThenConvertedToMetres) {
   const std::string asf = one_bone({.length_unit = "0.5", .dof = ""});
   const Motion motion = read_text("a", asf, "b", "1\nroot 3 0 1\n", {.unit = 0.0254}).motion;
   expect_same_place(places(motion, 0)["root"], {6 * 0.0254f, 0, 2 * 0.0254f});
@@ -189,13 +191,13 @@ TEST(AsfRead, ZUpIsTurnedToYUp) {
   expect_turn(motion.pose(0).rotations[1], 90, Eigen::Vector3d::UnitY());
 }
 
-TEST(AsfRead, TheRateIs120UnlessToldAndIsReported) {
+TEST(AsfRead, TheRateIs120UnlessGivenAndIsReported) {
   const File file = read(kGoodFiles / "two.amc", {.unit = 1.0});
   EXPECT_EQ(file.motion.rate(), (FrameRate{120, 1}));
-  EXPECT_TRUE(tells(file.notices, "two.amc: the format does not tell the frame rate; 120 frames a second taken"));
+  EXPECT_TRUE(has_notice(file.notices, "two.amc: the format does not tell the frame rate; 120 frames a second taken"));
 }
 
-TEST(AsfRead, OddSpellingsAreOne) {
+TEST(AsfRead, SpellingVariantsAreEquivalent) {
   const std::string asf = one_bone({.dof = "RX, RY"});
   std::string crlf;
   for (const char c : asf) crlf += c == '\n' ? std::string("\r\n") : std::string(1, c);
@@ -206,7 +208,7 @@ TEST(AsfRead, OddSpellingsAreOne) {
   ASSERT_EQ(file.motion.frame_count(), 2);
   expect_same_place(places(file.motion, 0)["root"], {1, 2, 3});
   expect_turn(file.motion.pose(0).rotations[1], 45, Eigen::Vector3d::UnitX());
-  EXPECT_TRUE(tells(file.notices, "b:5: the first frame has the number 7; it becomes frame 0"));
+  EXPECT_TRUE(has_notice(file.notices, "b:5: the first frame has the number 7; it becomes frame 0"));
 }
 
 TEST(AsfRead, AnglesKeepTheirPrecisionThroughManyTurns) {
@@ -214,7 +216,7 @@ TEST(AsfRead, AnglesKeepTheirPrecisionThroughManyTurns) {
   expect_turn(motion.pose(0).rotations[1], 45, Eigen::Vector3d::UnitX());
 }
 
-TEST(AsfRead, ValuesOutsideOfLimitsAreKeptAndCountedOnce) {
+TEST(AsfRead, ValuesOutsideTheLimitsArePreservedAndReportedOnce) {
   const std::string asf = one_bone({.dof = "rx rz\nlimits (-20 30)\n(-inf 10)"});
   const char* const amc = "1\nroot 0 0 0\nbone 40 10\n2\nroot 0 0 0\nbone 30 10.5\n3\nroot 0 0 0\nbone -20 -400\n";
   const File file = read_text("a", asf, "b", amc, kMetres);
@@ -225,34 +227,34 @@ TEST(AsfRead, ValuesOutsideOfLimitsAreKeptAndCountedOnce) {
             "its limits are -20 and 30");
   expect_turn(read_text("a", asf, "b", "1\nroot 0 0 0\nbone 40 0\n", kMetres).motion.pose(0).rotations[1], 40,
               Eigen::Vector3d::UnitX());
-  // Limits are in the skeleton's unit, here degrees: 0.5236 is just inside of 30 of them, 0.5237 is not.
+  // Limits are in the skeleton's unit, here degrees: 0.5236 is just inside 30 degrees, 0.5237 is not.
   EXPECT_TRUE(read_text("a", asf, "b", ":radians\n1\nroot 0 0 0\nbone 0.52359 0\n", kMetres).notices.empty());
   EXPECT_EQ(read_text("a", asf, "b", ":radians\n1\nroot 0 0 0\nbone 0.5237 0\n", kMetres).notices.size(), 1u);
 }
 
-TEST(AsfRead, WhatASkeletonHoldsBesidesIsPassedOverAndTold) {
+TEST(AsfRead, UnknownPartsOfASkeletonAreIgnoredAndReported) {
   std::string asf = one_bone({.dof = "rx"});
   asf.insert(asf.find(":root"), ":skin\nmesh.obj\n:rubbish\n");
   asf.replace(asf.find("direction 1 0 0"), 15, "direction 2 0 0\nbodymass 4\ncolour red");
   asf.replace(asf.find("dof rx"), 6, "dof rx\nlimits (0 1) (2 3)");
   const File file = read_text("a", asf, "b", ":odd\n1\nroot 0 0 0\nbone 5\n", kMetres);
-  EXPECT_TRUE(tells(file.notices, "':skin' is nothing that a skeleton holds; it is passed over"));
-  EXPECT_FALSE(tells(file.notices, "colour"));
-  EXPECT_TRUE(tells(file.notices, "bone 'bone' has 2 limits for 1 dofs; its limits are not looked at"));
-  EXPECT_TRUE(tells(file.notices, "the direction of bone 'bone' has the length 2 instead of 1"));
-  EXPECT_TRUE(tells(file.notices, "b:1: ':odd' is nothing that is known here"));
+  EXPECT_TRUE(has_notice(file.notices, "':skin' is not part of a skeleton and was ignored"));
+  EXPECT_FALSE(has_notice(file.notices, "colour"));
+  EXPECT_TRUE(has_notice(file.notices, "bone 'bone' has 2 limits for 1 dofs; its limits are ignored"));
+  EXPECT_TRUE(has_notice(file.notices, "the direction of bone 'bone' has the length 2 instead of 1"));
+  EXPECT_TRUE(has_notice(file.notices, "b:1: ':odd' is unknown"));
 }
 
 TEST(AsfRead, ProgressEndsAtOneAndMayCancel) {
-  std::vector<double> told;
+  std::vector<double> reported;
   ReadOptions options = kMetres;
-  options.progress = [&](double fraction) { told.push_back(fraction); };
+  options.progress = [&](double fraction) { reported.push_back(fraction); };
   std::string amc;
   for (int frame = 1; frame <= 60'000; ++frame) amc += std::to_string(frame) + "\nroot 0 0 0\nbone 0.123456789\n";
   read_text("a", one_bone({.dof = "rx"}), "b", amc, options);
-  EXPECT_GE(told.size(), 2u);
-  EXPECT_TRUE(std::is_sorted(told.begin(), told.end()));
-  EXPECT_EQ(told.back(), 1.0);
+  EXPECT_GE(reported.size(), 2u);
+  EXPECT_TRUE(std::is_sorted(reported.begin(), reported.end()));
+  EXPECT_EQ(reported.back(), 1.0);
   options.progress = [](double) { throw Error(ErrorCode::cancelled, "enough"); };
   EXPECT_THROW(read_text("a", one_bone({.dof = "rx"}), "b", amc, options), Error);
 }
@@ -268,13 +270,13 @@ TEST(AsfRead, SeveralRecordingsShareASkeleton) {
 
 TEST(AsfRead, TheUnitOfCmuIsGuessedFromTheStature) {
   const File file = read(kGoodFiles / "07_01.amc");
-  EXPECT_TRUE(tells(file.notices, "07.asf: unit inch (stature 1.")) << file.notices[0].text;
-  EXPECT_TRUE(tells(file.notices, "guessed for lengths divided by the 0.45 of :units; --unit overrides"));
+  EXPECT_TRUE(has_notice(file.notices, "07.asf: unit inch (stature 1.")) << file.notices[0].text;
+  EXPECT_TRUE(has_notice(file.notices, "guessed for lengths divided by the 0.45 of :units"));
   const Places at = places(file.motion, 0);
   EXPECT_NEAR(at["root"].y(), 0.97, 1e-4);
   EXPECT_NEAR((at["lradius"] - at["lhumerus"]).norm(), 0.28, 1e-4);
-  const Motion told = read(kGoodFiles / "07_01.amc", {.unit = 0.0254}).motion;
-  EXPECT_TRUE(same_bits(told, file.motion));
+  const Motion given = read(kGoodFiles / "07_01.amc", {.unit = 0.0254}).motion;
+  EXPECT_TRUE(same_bits(given, file.motion));
 }
 
 TEST(AsfRead, TheNamesOfCmuAreMappedToABody) {

@@ -14,9 +14,9 @@
 namespace signweave::asf {
 namespace {
 
-constexpr std::size_t kMostBones = 65'534;  // and the root
+constexpr std::size_t kMostBones = 65'534;  // in addition to the root
 constexpr std::array<std::string_view, 7> kDofNames = {"tx", "ty", "tz", "rx", "ry", "rz", "l"};
-constexpr double kUnitLengthOff = 0.01;  ///< of a direction, for what it is told
+constexpr double kUnitLengthOff = 0.01;  ///< deviation of a direction's length from 1 that is reported
 
 std::optional<std::array<int, 3>> axis_order_of(std::string_view word) noexcept {
   constexpr std::array<std::string_view, 6> kOrders = {"xyz", "xzy", "yxz", "yzx", "zxy", "zyx"};
@@ -26,16 +26,16 @@ std::optional<std::array<int, 3>> axis_order_of(std::string_view word) noexcept 
   return std::nullopt;
 }
 
-/// True where a word can only be a number, "inf" too.
+/// True if a word can only be a number, including "inf".
 bool is_numeric(std::string_view word) noexcept {
   const bool letter = (word.front() >= 'a' && word.front() <= 'z') || (word.front() >= 'A' && word.front() <= 'Z');
   return !letter || same_word(word, "inf") || same_word(word, "infinity") || same_word(word, "nan");
 }
 
-/// What is written once in a bone or in the root.
+/// Entries that may occur once in a bone or in the root.
 enum class BoneEntry : unsigned { id, name, direction, length, axis, dof, limits, order, position, orientation };
 
-/// Reads section after section.
+/// Reads one section after another.
 class FigureReader {
  public:
   FigureReader(TextReader& reader, std::vector<Notice>& notices) : reader_(reader), lines_(reader), notices_(notices) {}
@@ -43,7 +43,7 @@ class FigureReader {
   Figure read() {
     if (!lines_.next()) lines_.fail("the file is empty, expected an Acclaim skeleton; export it again");
     if (!lines_.is_keyword()) {
-      lines_.fail(fmt::format("expected a keyword such as :units, found {}; this is no Acclaim skeleton",
+      lines_.fail(fmt::format("expected a keyword such as :units, found {}; this is not an Acclaim skeleton",
                               in_quotes(lines_.first())));
     }
     figure_.bones.push_back({.name = "root"});
@@ -64,8 +64,8 @@ class FigureReader {
   void read_section() {
     const std::string_view keyword = lines_.first();
     if (!lines_.is_keyword()) {
-      lines_.fail(fmt::format("{} stands in no section; a section begins with a keyword such as :bonedata",
-                              in_quotes(keyword)));
+      lines_.fail(
+          fmt::format("{} is in no section; a section begins with a keyword such as :bonedata", in_quotes(keyword)));
     }
     if (same_word(keyword, ":units")) return read_units();
     if (same_word(keyword, ":root")) return read_root();
@@ -78,7 +78,7 @@ class FigureReader {
     skip_section();
   }
 
-  /// To the next line of this section; false where another begins, or the file ends.
+  /// Advances to the next line of this section; false if another section begins or the file ends.
   bool next_in_section() {
     if (!lines_.next()) return false;
     if (lines_.is_keyword()) lines_.back();
@@ -210,7 +210,7 @@ class FigureReader {
     }
     if (has(BoneEntry::limits) && bone.limits.size() != bone.dofs.size()) {
       if (odd_limits_.where.empty()) {
-        odd_limits_ = reader_.notice(fmt::format("{} has {} limits for {} dofs; its limits are not looked at", item_,
+        odd_limits_ = reader_.notice(fmt::format("{} has {} limits for {} dofs; its limits are ignored", item_,
                                                  bone.limits.size(), bone.dofs.size()));
       }
       bone.limits.clear();
@@ -248,7 +248,7 @@ class FigureReader {
       }
       const auto dof = static_cast<Dof>(i);
       if (std::find(dofs.begin(), dofs.end(), dof) != dofs.end()) {
-        lines_.fail(fmt::format("{} twice in {} of {}; each may stand once", in_quotes(word), what, item_));
+        lines_.fail(fmt::format("{} twice in {} of {}; each may occur once", in_quotes(word), what, item_));
       }
       dofs.push_back(dof);
     }
@@ -288,7 +288,8 @@ class FigureReader {
     return number_of(word, lines_, "a limit");
   }
 
-  /// Pairs of numbers on this line and on those that follow and begin with a number, whatever the count of dofs.
+  /// Reads pairs of numbers on this line and on the following ones that begin with a number, whatever the number of
+  /// dofs.
   std::vector<Limit> read_limits() {
     std::vector<double> numbers;
     std::size_t line = lines_.line();
@@ -321,7 +322,7 @@ class FigureReader {
 
   void note_unknown(std::string_view word) {
     if (unknown_.where.empty()) {
-      unknown_ = reader_.notice(fmt::format("{} is nothing that a skeleton holds; it is passed over", in_quotes(word)));
+      unknown_ = reader_.notice(fmt::format("{} is not part of a skeleton and was ignored", in_quotes(word)));
     }
   }
 
@@ -341,11 +342,11 @@ class FigureReader {
   std::vector<Notice>& notices_;
   Figure figure_;
   std::vector<Kinship> kinships_;
-  std::unordered_map<std::string, std::size_t> lines_of_;  ///< of bones, by name
+  std::unordered_map<std::string, std::size_t> lines_of_;  ///< of the bones, by name
   bool has_root_ = false;
   bool has_hierarchy_ = false;
-  std::string item_;                                        ///< what is being read, for messages
-  unsigned entries_ = 0;                                    ///< of it, a bit each
+  std::string item_;                                        ///< the item being read, for messages
+  unsigned entries_ = 0;                                    ///< its entries so far, one bit each
   Notice unknown_, odd_name_, odd_limits_, odd_direction_;  ///< the first of each kind
 };
 

@@ -11,17 +11,17 @@ struct OneBone {
   std::string order = "TX TY TZ";
   std::string root = "position 0 0 0";
   std::string axis = "0 0 0 XYZ";
-  std::string dof = "rx ry rz";  ///< none where empty
+  std::string dof = "rx ry rz";  ///< empty for none
 };
 
-/// A root, and on it the bone `bone` along x, 2 long.
+/// A root with the child bone `bone` along x, 2 long.
 inline std::string one_bone(const OneBone& of) {
   return ":version 1.10\n:units\nlength " + of.length_unit + "\nangle " + of.angle + "\n:root\norder " + of.order +
          "\naxis XYZ\n" + of.root + "\n:bonedata\nbegin\nname bone\ndirection 1 0 0\nlength 2\naxis " + of.axis + "\n" +
          (of.dof.empty() ? "" : "dof " + of.dof + "\n") + "end\n:hierarchy\nbegin\nroot bone\nend\n";
 }
 
-/// The same, and on `bone` the bone `last` along y, 1 long.
+/// The same, with `last` as the child of `bone` along y, 1 long.
 inline std::string two_bones(const std::string& axis, const std::string& dof, const std::string& first_dof = "rz") {
   std::string text = one_bone({.dof = first_dof});
   text.insert(text.find(":hierarchy"),

@@ -35,8 +35,8 @@ std::string fault_in_file(const fs::path& path) {
 
 const fs::path kBrokenFolder = fs::path(SIGNWEAVE_SOURCE_DIR) / "testdata" / "bvh_broken";
 
-// x.expected beside x.bvh holds what follows "x.bvh:" in the message; a file without one fails here.
-TEST(BvhBroken, EveryBrokenFileIsRefusedWithItsLineAndItsMend) {
+// x.expected next to x.bvh holds what follows "x.bvh:" in the message; a file without one fails here.
+TEST(BvhBroken, EveryBrokenFileIsRefusedWithItsLineAndARepair) {
   const std::vector<fs::path> files = files_in(kBrokenFolder, ".bvh");
   ASSERT_GE(files.size(), 50u);
   for (fs::path path : files) {
@@ -62,8 +62,8 @@ TEST(BvhBroken, EveryExpectationHasItsFile) {
     EXPECT_TRUE(fs::exists(path.replace_extension(".bvh"))) << path;
 }
 
-// A file cut anywhere must be refused, never crash, and never be taken for whole, unless only blanks are lost.
-TEST(BvhBroken, AFileCutAnywhereIsRefused) {
+// A truncated file must be refused, and must never crash or be accepted as complete, unless only blanks are lost.
+TEST(BvhBroken, ATruncatedFileIsRefused) {
   const std::string text = read_file(fs::path(SIGNWEAVE_SOURCE_DIR) / "testdata" / "bvh" / "signer.bvh");
   ASSERT_NO_THROW(read_text("whole", text));
   const std::size_t last_number = text.find_last_of(" \t", text.size() - 2) + 1;

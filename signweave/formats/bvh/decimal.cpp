@@ -16,7 +16,7 @@
 namespace signweave::bvh {
 namespace {
 
-/// A double in fixed notation has at most 309 letters before the point; nobody asks for more than some 60 after it.
+/// A double in fixed notation has at most 309 characters before the point; at most about 60 are requested after it.
 constexpr std::size_t kLongest = 512;
 constexpr std::array<double, 16> kPowers = {1e0, 1e1, 1e2,  1e3,  1e4,  1e5,  1e6,  1e7,
                                             1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15};
@@ -34,9 +34,9 @@ constexpr std::array<char, 200> kPairs = [] {
   return pairs;
 }();
 
-/// `value` in units of its last decimal, rounded as the exact value of the double is; none where that is not known
-/// here. The product with an exact power of ten is rounded once, and never across a half, which is a double itself:
-/// only where it falls on one may the exact value lie on either side.
+/// `value` in units of its last decimal, rounded as the exact value of the double is; nullopt if that cannot be
+/// determined here. The product with an exact power of ten is rounded once, and never across a half, which is itself a
+/// double: only if it equals one may the exact value lie on either side.
 std::optional<std::uint64_t> in_last_places(double value, int decimals) noexcept {
   if (decimals >= static_cast<int>(kPowers.size())) return std::nullopt;
   const double scaled = value * kPowers[static_cast<std::size_t>(decimals)];
@@ -64,7 +64,7 @@ char* print_whole(char* at, std::uint64_t number) noexcept {
   return at + count;
 }
 
-/// `places` in units of the last of `decimals` decimals, without the zeros at its end.
+/// Prints `places` in units of the last of `decimals` decimals, without trailing zeros.
 char* print_places(char* at, std::uint64_t places, std::size_t decimals, bool negative) noexcept {
   if (negative && places != 0) *at++ = '-';
   const std::uint64_t whole = places / kWholePowers[decimals];
@@ -78,7 +78,7 @@ char* print_places(char* at, std::uint64_t places, std::size_t decimals, bool ne
   return at;
 }
 
-/// The same for any number at all.
+/// The same for any number.
 char* print_any(char* at, double value, int decimals) {
   const auto [end, size] = fmt::format_to_n(at, kLongest - 1, "{:.{}f}", value, decimals);
   char* last = end;
@@ -90,7 +90,7 @@ char* print_any(char* at, double value, int decimals) {
   return last;
 }
 
-/// ⌊log10⌋ of a positive number; just below a power of ten it may tell that power.
+/// ⌊log10⌋ of a positive number; just below a power of ten it may return that power's exponent.
 int magnitude(double value) noexcept {
   if (!(value >= 1e-14 && value < 1e14)) return static_cast<int>(std::floor(std::log10(value)));
   int power = 0;
@@ -117,7 +117,7 @@ void DecimalText::fixed(double value, int decimals) {
 void DecimalText::length(float metres, double unit) {
   const double value = static_cast<double>(metres) / unit;
   if (value == 0) return letter('0');
-  // Nine significant digits name every float.
+  // Nine significant digits identify every float.
   const double size = std::abs(value);
   const int last = std::max(4, 8 - magnitude(size));
   char* const at = room();
@@ -125,7 +125,7 @@ void DecimalText::length(float metres, double unit) {
     const std::optional<std::uint64_t> places = in_last_places(size, decimals);
     char* end = nullptr;
     double read = 0;
-    if (places) {  // the text says places / 10^decimals, and both are exact
+    if (places) {  // the text means places / 10^decimals, and both are exact
       read = static_cast<double>(static_cast<std::int64_t>(*places)) / kPowers[static_cast<std::size_t>(decimals)];
       if (value < 0) read = -read;
     } else {
@@ -137,8 +137,8 @@ void DecimalText::length(float metres, double unit) {
     size_ += static_cast<std::size_t>(end - at);
     return;
   }
-  // The float nearest to it is the one that the file had, if it came from a file; nine digits of another number near it
-  // may name its neighbour.
+  // The float nearest to it is the one in the file, if it came from a file; nine digits of another nearby number may
+  // identify its neighbour.
   const auto nearest = static_cast<float>(value);
   fixed(std::isfinite(nearest) ? static_cast<double>(nearest) : value, last);
 }

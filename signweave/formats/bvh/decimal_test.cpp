@@ -26,7 +26,7 @@ std::string length(float metres, double unit) {
   return std::string(text.view());
 }
 
-/// The same by {fmt}, whose digits are those of the exact value.
+/// The same with {fmt}, whose digits are those of the exact value.
 std::string plainly(double value, int decimals) {
   std::string text = fmt::format("{:.{}f}", value, decimals);
   if (decimals > 0) text.erase(text.find_last_not_of('0') + 1);
@@ -47,7 +47,7 @@ TEST(BvhDecimal, FixedNumbersHaveTheDigitsOfTheExactValue) {
 
 TEST(BvhDecimal, TiesAndTheirNeighboursAreRoundedAsTheyAre) {
   for (int i = -2'000; i <= 2'000; ++i) {
-    // Odd multiples of 2^-6 have a 5 as their sixth decimal and nothing behind it: exact ties.
+    // Odd multiples of 2^-6 have a 5 as their sixth and last decimal: exact ties.
     const double tie = i / 64.0;
     const double decimal = i * 1e-5 + 5e-6;
     for (const double value : {tie, std::nextafter(tie, 1e9), std::nextafter(tie, -1e9), decimal,
@@ -57,17 +57,17 @@ TEST(BvhDecimal, TiesAndTheirNeighboursAreRoundedAsTheyAre) {
   }
 }
 
-TEST(BvhDecimal, NothingIsPlainZero) {
+TEST(BvhDecimal, ZeroIsPrintedAsZero) {
   for (const double value : {0.0, -0.0, 1e-9, -1e-9, -4.9e-6}) EXPECT_EQ(fixed(value, 5), "0");
   EXPECT_EQ(length(-0.0f, 0.01), "0");
 }
 
-TEST(BvhDecimal, LengthsComeBackToTheSameBits) {
+TEST(BvhDecimal, LengthsReadBackToTheSameBits) {
   std::mt19937_64 random(2);
   std::uniform_real_distribution<double> power(-12, 6);
   for (const double unit : {1.0, 0.01, 0.001, 0.0254, 0.0564}) {
     for (int i = 0; i < 20'000; ++i) {
-      // As a file has it: not every float of metres is one of another unit.
+      // The length as a file has it, because not every float of metres is the conversion of a float in another unit.
       const float metres = to_metres(static_cast<float>((i % 2 == 0 ? 1 : -1) * std::pow(10.0, power(random))), unit);
       const std::string text = length(metres, unit);
       double read = 0;
@@ -79,7 +79,7 @@ TEST(BvhDecimal, LengthsComeBackToTheSameBits) {
   }
 }
 
-TEST(BvhDecimal, LengthsHaveAsFewDecimalsAsServe) {
+TEST(BvhDecimal, LengthsHaveAsFewDecimalsAsPossible) {
   for (const char* const text : {"0.0001", "-6.2023", "87.7332", "-161.6986", "12.9947", "0.890477", "-0.000138",
                                  "5000", "0.0000051072", "999.9999", "0.9999999", "0.001", "1000000"}) {
     double value = 0;
@@ -90,7 +90,7 @@ TEST(BvhDecimal, LengthsHaveAsFewDecimalsAsServe) {
   }
 }
 
-TEST(BvhDecimal, NoNumberIsTooLongForItsRoom) {
+TEST(BvhDecimal, NoNumberIsTooLongForTheBuffer) {
   DecimalText text;
   const double most = std::numeric_limits<double>::max();
   for (int i = 0; i < 10; ++i) text.fixed(i % 2 == 0 ? most : -most, 5);

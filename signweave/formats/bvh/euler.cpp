@@ -9,11 +9,11 @@ namespace signweave::bvh {
 namespace {
 
 constexpr double kTurn = 2.0 * std::numbers::pi;
-/// Below this amplitude the free angle is only rounding noise of a float quaternion. Choosing it moves the rotation by
-/// at most 2√2 times as much: 5e-5 degrees.
+/// Below this amplitude the free angle is only rounding noise of a float quaternion. Choosing it arbitrarily changes
+/// the rotation by at most 2√2 times as much: 5e-5 degrees.
 constexpr double kLocked = 3e-7;
 
-/// To the nearest whole number, halves away from 0, as std::round; inline, and for sizes below 2^51.
+/// Rounds to the nearest whole number, halves away from 0, as std::round does; inline, and for magnitudes below 2^51.
 double rounded(double value) noexcept {
   const double nearest = (value + 0x1.8p52) - 0x1.8p52;  // halves to even
   const double rest = value - nearest;
@@ -24,7 +24,7 @@ double nearest_to(double target, double angle, double period) noexcept {
   return angle + period * rounded((target - angle) / period);
 }
 
-/// atan(x)/x for |x| ≤ tan(π/8) as a polynomial in x², by Remez' algorithm; the greatest error is 4e-17 before
+/// atan(x)/x for |x| ≤ tan(π/8) as a polynomial in x², found with Remez' algorithm; the largest error is 4e-17 before
 /// rounding.
 constexpr double kArc[] = {1.0,
                            -0.33333333333328712408,
@@ -38,8 +38,8 @@ constexpr double kArc[] = {1.0,
                            -0.043527054560358846979,
                            0.021189480326038705031};
 
-/// std::atan2(rises, runs) within 4e-16, of finite numbers. Without branches, so that the compiler does two at a time
-/// and none is guessed wrong: most of the time of writing a file was spent here.
+/// Computes std::atan2(rises, runs) within 4e-16 for finite numbers. It has no branches, so that the compiler
+/// vectorizes it and none is mispredicted: most of the time of writing a file was spent here.
 void directions(std::span<const double> rises, std::span<const double> runs, std::span<double> angles) noexcept {
   constexpr double kEighth = 0.41421356237309503;  // tan(π/8)
   constexpr double kHalf = std::numbers::pi / 2;
@@ -52,7 +52,7 @@ void directions(std::span<const double> rises, std::span<const double> runs, std
     const double run = std::abs(run_of[i]);
     const double least = std::min(rise, run);
     const double most = std::max(rise, run) + 1e-290;  // 0/0 is 0 here, without denormal numbers, which are slow
-    // Either near 0 or near π/4, where atan((a − b)/(a + b)) is left: `oblique` is 0 or 1.
+    // Either near 0, or near π/4, where atan((a − b)/(a + b)) remains: `oblique` is 0 or 1.
     const double oblique = 0.5 + std::copysign(0.5, least - kEighth * most);
     const double t = (least - oblique * most) / (most + oblique * least);
     const double u = t * t;
@@ -66,7 +66,7 @@ void directions(std::span<const double> rises, std::span<const double> runs, std
                              u * (kArc[5] +
                                   u * (kArc[6] + u * (kArc[7] + u * (kArc[8] + u * (kArc[9] + u * kArc[10]))))))))));
     double angle = oblique * (kHalf / 2) + arc;
-    // Seen from the other axis where the direction is steep; mirrored where the run is negative, −0 too.
+    // Measured from the other axis if the direction is steep; mirrored if the run is negative, including −0.
     const double axis = std::copysign(kHalf / 2, run - rise);
     angle = (kHalf / 2 - axis) + std::copysign(1.0, axis) * angle;
     const double side = std::copysign(kHalf, run_of[i]);
@@ -90,12 +90,12 @@ Angles unwrapped(Angles angles, const Angles& before) noexcept {
   return angles;
 }
 
-/// +1 where the second axis follows the first in x → y → z → x, else −1.
+/// +1 if the second axis follows the first in x → y → z → x, else −1.
 double handedness(int first, int second) noexcept {
   return second == (first + 1) % 3 ? 1.0 : -1.0;
 }
 
-/// A joint's rotation as three directions, of which its angles are made.
+/// A joint's rotation as three directions, from which its angles are computed.
 struct Directions {
   std::array<double, 3> rises{};
   std::array<double, 3> runs{1, 1, 1};
@@ -114,10 +114,10 @@ Directions two_axes(const Eigen::Quaterniond& q, int first, int second) noexcept
   return {.rises = {a + b, a - b}, .runs = {q.w() - third, q.w() + third, 1}};
 }
 
-// With half angles A, B, C and s the handedness of the axes, a product of three turns has the components
+// With half angles A, B, C and s the handedness of the axes, a product of three rotations has the components
 //   w + b  = (cos B + sin B) cos(A + sC)      a + sc = (cos B + sin B) sin(A + sC)
 //   w − b  = (cos B − sin B) cos(A − sC)      a − sc = (cos B − sin B) sin(A − sC)
-// so that sum, difference and B fall out without a subtraction of near numbers, at gimbal lock too.
+// so sum, difference and B follow without subtracting nearly equal numbers, even at gimbal lock.
 Directions three_axes(const Eigen::Quaterniond& q, const RotationOrder& order) noexcept {
   const double a = q.vec()[order.axes[0]];
   const double b = q.vec()[order.axes[1]];
@@ -134,7 +134,7 @@ Directions directions_of(const Eigen::Quaterniond& rotation, const RotationOrder
   return {};
 }
 
-/// Of the angles of the three directions; `minus` and `plus` are the third's rise and run.
+/// The angles from the three directions; `minus` and `plus` are the third's rise and run.
 Angles of_three_axes(const double* found, double minus, double plus, double s, const Angles* before) noexcept {
   double sum = found[0];
   double difference = found[1];
@@ -143,7 +143,7 @@ Angles of_three_axes(const double* found, double minus, double plus, double s, c
     if (before != nullptr) {
       const double sum_before = ((*before)[0] + s * (*before)[2]) / 2;
       const double difference_before = ((*before)[0] - s * (*before)[2]) / 2;
-      // q and −q are one rotation, so what is left is known up to half a turn.
+      // q and −q are the same rotation, so the rest is known up to half a turn.
       sum = plus < kLocked ? sum_before : nearest_to(sum_before, sum, kTurn / 2);
       difference = minus < kLocked ? difference_before : nearest_to(difference_before, difference, kTurn / 2);
       const double direct = nearest_to((*before)[1], middle, kTurn);
@@ -156,7 +156,7 @@ Angles of_three_axes(const double* found, double minus, double plus, double s, c
   return {sum + difference, middle, s * (sum - difference)};
 }
 
-/// Of the angles `found` of the three directions whose rises and runs are given.
+/// The angles from `found`, the angles of the three directions with the given rises and runs.
 Angles settled(const double* found, const double* rises, const double* runs, const RotationOrder& order,
                const Angles* before) noexcept {
   if (order.count == 0) return {};
@@ -168,7 +168,7 @@ Angles settled(const double* found, const double* rises, const double* runs, con
   if (before == nullptr) return unwrapped(angles, {});
   const Angles direct = unwrapped(angles, *before);
   if (order.count < 3) return direct;
-  // Half a turn of the first and the last with the middle one mirrored is the same rotation.
+  // The first and last angle turned by half a turn and the middle one mirrored give the same rotation.
   const Angles other = unwrapped({angles[0] + kTurn / 2, std::numbers::pi - angles[1], angles[2] + kTurn / 2}, *before);
   return distance(other, *before) < distance(direct, *before) ? other : direct;
 }

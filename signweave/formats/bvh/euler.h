@@ -7,7 +7,7 @@
 
 #include "signweave/formats/bvh/bvh.h"
 
-/// Euler angles, which live in formats/bvh only. Part of it, not for others.
+/// Euler angles, which are used in formats/bvh only. Internal to formats/bvh.
 namespace signweave::bvh {
 
 inline bool is_rotation(Channel channel) noexcept {
@@ -31,13 +31,13 @@ RotationOrder rotation_order(std::span<const Channel> channels) noexcept;
 /// Radians, one per rotation channel in file order; those past the order's count are 0.
 using Angles = std::array<double, 3>;
 
-/// The angles whose turns, one after the other, make `rotation`; where the order has fewer than three axes, those that
-/// come nearest to it. Without angles of the frame before (null): the middle one within ±90°, the others within ±180°,
-/// and the last one 0 at gimbal lock. With them: of all that give the same rotation those nearest to `before`; at
-/// gimbal lock the combination of first and last that is free stays as it was.
+/// Returns the angles whose rotations, applied in order, give `rotation`; if the order has fewer than three axes, those
+/// that come nearest to it. If `before`, the angles of the previous frame, is null, the middle angle is within ±90°,
+/// the others within ±180°, and the last is 0 at gimbal lock. Otherwise, of all angles that give the same rotation,
+/// returns those nearest to `before`; at gimbal lock the free combination of first and last does not change.
 Angles angles_of(const Eigen::Quaterniond& rotation, const RotationOrder& order, const Angles* before) noexcept;
 
-/// The same for frame after frame of all joints, faster.
+/// Finds the angles of all joints, one frame after another; faster than angles_of.
 class AngleFinder {
  public:
   /// `orders` is [joint].
@@ -48,7 +48,7 @@ class AngleFinder {
 
  private:
   std::vector<RotationOrder> orders_;
-  std::vector<Angles> angles_;  ///< of the frame before
+  std::vector<Angles> angles_;  ///< of the previous frame
   bool is_first_ = true;
   std::vector<double> rises_, runs_, found_;  ///< [joint][3]
 };

@@ -28,7 +28,7 @@ std::vector<RotationOrder> all_orders() {
   return orders;
 }
 
-/// The product by Eigen's own means.
+/// The product computed with Eigen's own functions.
 Eigen::Quaterniond product(const RotationOrder& order, const Angles& angles) {
   Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();
   for (int i = 0; i < order.count; ++i) {
@@ -81,7 +81,8 @@ RC_GTEST_PROP(BvhEuler, AtAndNearGimbalLockAFloatQuaternionComesBackWithinATenth
 }
 
 RC_GTEST_PROP(BvhEuler, SmallStepsAreFollowedThroughWholeTurns, ()) {
-  // A walk of a few degrees a frame, away from gimbal lock or across ±90° of the middle angle: never a jump.
+  // A random walk of a few degrees per frame, away from gimbal lock or across ±90° of the middle angle: it must never
+  // jump.
   Angles angles = some_angles(80);
   std::array<double, 3> speed{};
   for (double& one : speed) one = *rc::gen::inRange(-4000, 4001) * 0.001 * kDegree;
@@ -99,7 +100,7 @@ RC_GTEST_PROP(BvhEuler, SmallStepsAreFollowedThroughWholeTurns, ()) {
   }
 }
 
-TEST(BvhEuler, AtGimbalLockTheFreeAngleKeepsStill) {
+TEST(BvhEuler, AtGimbalLockTheFreeAngleDoesNotChange) {
   for (const RotationOrder& order : all_orders()) {
     if (order.count != 3) continue;
     for (const double middle : {90.0, -90.0}) {
@@ -136,7 +137,7 @@ RC_GTEST_PROP(BvhEuler, TooFewAxesGiveTheNearestRotation, ()) {
 }
 
 TEST(BvhEuler, DirectionsAreThoseOfTheStandardLibrary) {
-  // A turn about one axis is twice its direction, so that shows each of them.
+  // The angle about one axis is twice its direction, so it reveals each direction.
   const RotationOrder order{{0, 0, 0}, 1};
   double worst = 0;
   for (int i = -400'000; i <= 400'000; ++i) {
@@ -147,7 +148,7 @@ TEST(BvhEuler, DirectionsAreThoseOfTheStandardLibrary) {
     const Angles found = angles_of(Eigen::Quaterniond(run, rise, 0, 0), order, &before);
     worst = std::max(worst, std::abs(found[0] - before[0]) / 2);
   }
-  EXPECT_LE(worst, 9e-16);  // an ulp of π is 4.4e-16, and the standard library errs too
+  EXPECT_LE(worst, 9e-16);  // an ulp of π is 4.4e-16, and the standard library has errors too
   for (const double run : {1.0, -1.0, 0.0, -0.0}) {
     for (const double rise : {1.0, -1.0, 0.0, -0.0, 1e-300}) {
       const Angles before = {2 * std::atan2(rise, run), 0, 0};

@@ -13,13 +13,13 @@ namespace signweave::bvh {
 namespace {
 
 constexpr std::size_t kBytesPerReport = std::size_t{1} << 20;
-/// Joints times frames that a file with hardly any channels may hold: 64 MiB of poses.
+/// Joints times frames allowed for a file with hardly any channels: 64 MiB of poses.
 constexpr std::size_t kFreePoses = std::size_t{1} << 22;
 
 /// "Frames: 12" as key and value.
 struct Entry {
   std::string line;
-  std::string key;  ///< without blanks; empty where the line has no colon
+  std::string key;  ///< without blanks; empty if the line has no colon
   std::string value;
 };
 
@@ -68,7 +68,7 @@ MotionHeader read_header(TextReader& reader, std::vector<Notice>& notices) {
   }
   const std::optional<SnappedRate> rate = snap_frame_time(time.value);
   if (!rate) {
-    reader.fail(fmt::format("'{}' is no frame time; write the seconds of a frame, such as 0.008333 for 120 a second",
+    reader.fail(fmt::format("'{}' is not a frame time; write the seconds of a frame, such as 0.008333 for 120 a second",
                             printable(time.value)));
   }
   header.frame_time = time.value;
@@ -138,7 +138,7 @@ void FrameReader::begin_frame(std::size_t line) noexcept {
   if (frame_ > 0 && line == last_line_) note_odd_line(line);
 }
 
-/// So many joints without channels that a few numbers would become gigabytes of joints at rest.
+/// So many joints without channels that a few numbers would expand to gigabytes of joints at rest.
 bool FrameReader::is_sparse() const noexcept {
   return hierarchy_.joints.size() > 16 * hierarchy_.channel_count;
 }
@@ -162,9 +162,9 @@ std::string FrameReader::odd_line_hint() const {
 
 void FrameReader::fail_short(std::size_t numbers) {
   const std::string part = numbers == 0 ? "" : fmt::format(" and {} of {} numbers", numbers, hierarchy_.channel_count);
-  const std::string mend = frame_ == 0 ? "restore" : fmt::format("write 'Frames: {}' or restore", frame_);
+  const std::string repair = frame_ == 0 ? "restore" : fmt::format("write 'Frames: {}' or restore", frame_);
   reader_.fail(fmt::format("the file ends after {} whole frames{}, but Frames: says {}{}; {} the rest of it", frame_,
-                           part, frames_, odd_line_hint(), mend));
+                           part, frames_, odd_line_hint(), repair));
 }
 
 void FrameReader::fail_long() {
@@ -178,7 +178,7 @@ void FrameReader::fail_long() {
   const std::string rest = part == 0 ? "" : fmt::format(" and {} numbers more", part);
   throw Error(ErrorCode::bad_input,
               fmt::format("{}:{}: numbers are left over after frame {}: the data has {} frames{}, but Frames: says "
-                          "{}{}; write 'Frames: {}' or remove what is too much",
+                          "{}{}; write 'Frames: {}' or remove the excess",
                           reader_.name(), line, frames_, whole, rest, frames_, odd_line_hint(), whole));
 }
 

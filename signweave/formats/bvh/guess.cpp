@@ -26,11 +26,11 @@ constexpr std::array kUnits = {Unit{"m", 1.0}, Unit{"cm", 0.01}, Unit{"mm", 0.00
 constexpr double kUsualStature = 1.7;
 constexpr double kSmallest = 1.0;
 constexpr double kTallest = 2.3;
-constexpr double kCommonSmallest = 1.3;  // bones end at ankle and head joint in some skeletons
+constexpr double kCommonSmallest = 1.3;  // in some skeletons the bones end at the ankle and at the head joint
 constexpr double kCommonTallest = 2.1;
 constexpr std::int64_t kFramesSeen = 50;
 
-/// Joints whose names, in lower case, hold one of these parts.
+/// Joints whose names, in lower case, contain one of these parts.
 JointSet joints_named(const std::vector<std::string>& names, std::initializer_list<std::string_view> parts) {
   JointSet found;
   for (std::size_t i = 0; i < names.size(); ++i) {
@@ -48,7 +48,7 @@ JointSet first_of(std::initializer_list<JointSet> choices) {
   return {};
 }
 
-/// How long each bone is (the way from a joint's parent), in file units, and how the posed body stands.
+/// The length of each bone (from a joint's parent to the joint), in file units, and the orientation of the posed body.
 struct Measures {
   std::vector<double> bones;                          ///< [joint]
   Eigen::Vector3d upright = Eigen::Vector3d::Zero();  ///< mean direction from the feet to the head
@@ -60,20 +60,20 @@ Eigen::Vector3d centre(const JointSet& joints, const ModelPose& pose) {
   return sum / static_cast<double>(joints.size());
 }
 
-/// The frames that are looked at: some, evenly spread.
+/// The step between the frames that are examined, which are evenly spaced.
 std::int64_t frame_step(const Motion& motion) noexcept {
   return std::max<std::int64_t>(1, motion.frame_count() / kFramesSeen);
 }
 
-/// A joint on the way from the root to the head or to a foot.
-struct WayJoint {
+/// A joint on the path from the root to the head or to a foot.
+struct PathJoint {
   std::size_t joint;
   std::size_t parent;  ///< the joint itself for the root
   std::optional<std::size_t> translation;
 };
 
-/// All joints from the root to those given, parents first.
-std::vector<WayJoint> ways_to(const Skeleton& skeleton, const JointSet& head, const JointSet& feet) {
+/// All joints on the paths from the root to those given, parents first.
+std::vector<PathJoint> paths_to(const Skeleton& skeleton, const JointSet& head, const JointSet& feet) {
   std::vector<bool> wanted(skeleton.joint_count(), false);
   for (const JointSet* ends : {&head, &feet}) {
     for (JointIndex joint : *ends) {
@@ -82,14 +82,14 @@ std::vector<WayJoint> ways_to(const Skeleton& skeleton, const JointSet& head, co
       }
     }
   }
-  std::vector<WayJoint> ways;
+  std::vector<PathJoint> path_joints;
   for (std::size_t i = 0; i < wanted.size(); ++i) {
     if (!wanted[i]) continue;
     const JointIndex parent = skeleton.joints()[i].parent;
-    ways.push_back({i, parent == kNoJoint ? i : static_cast<std::size_t>(parent),
-                    skeleton.translation_of(static_cast<JointIndex>(i))});
+    path_joints.push_back({i, parent == kNoJoint ? i : static_cast<std::size_t>(parent),
+                           skeleton.translation_of(static_cast<JointIndex>(i))});
   }
-  return ways;
+  return path_joints;
 }
 
 Measures measure(const Motion& motion, const JointSet& head, const JointSet& feet) {
@@ -97,26 +97,27 @@ Measures measure(const Motion& motion, const JointSet& head, const JointSet& fee
   Measures result;
   result.bones.assign(skeleton.joint_count(), 0.0);
   const bool named = !head.empty() && !feet.empty();
-  const std::vector<WayJoint> ways = named ? ways_to(skeleton, head, feet) : std::vector<WayJoint>();
+  const std::vector<PathJoint> path_joints = named ? paths_to(skeleton, head, feet) : std::vector<PathJoint>();
   double seen = 0;
   ModelPose model;
   model.rotations.resize(skeleton.joint_count());
   model.positions.resize(skeleton.joint_count());
   for (std::int64_t frame = 0; frame < motion.frame_count(); frame += frame_step(motion)) {
     const PoseView pose = motion.pose(frame);
-    // Where the file moves a joint, its OFFSET need not be a bone at all.
+    // If the file moves a joint, its OFFSET need not be a bone.
     for (std::size_t i = 0; i < pose.translations.size(); ++i) {
       result.bones[static_cast<std::size_t>(skeleton.translated_joints()[i])] +=
           pose.translations[i].cast<double>().norm();
     }
-    for (const WayJoint& way : ways) {  // forward kinematics of these alone
-      const Eigen::Vector3f& local =
-          way.translation ? pose.translations[*way.translation] : skeleton.joints()[way.joint].offset;
-      const bool root = way.parent == way.joint;
-      model.positions[way.joint] =
-          root ? local : Eigen::Vector3f(model.positions[way.parent] + model.rotations[way.parent] * local);
-      model.rotations[way.joint] =
-          root ? pose.rotations[way.joint] : model.rotations[way.parent] * pose.rotations[way.joint];
+    for (const PathJoint& path_joint : path_joints) {  // forward kinematics of these joints only
+      const Eigen::Vector3f& local = path_joint.translation ? pose.translations[*path_joint.translation]
+                                                            : skeleton.joints()[path_joint.joint].offset;
+      const bool root = path_joint.parent == path_joint.joint;
+      model.positions[path_joint.joint] =
+          root ? local
+               : Eigen::Vector3f(model.positions[path_joint.parent] + model.rotations[path_joint.parent] * local);
+      model.rotations[path_joint.joint] = root ? pose.rotations[path_joint.joint]
+                                               : model.rotations[path_joint.parent] * pose.rotations[path_joint.joint];
     }
     if (named) {
       const Eigen::Vector3d upright = centre(head, model) - centre(feet, model);
@@ -128,12 +129,12 @@ Measures measure(const Motion& motion, const JointSet& head, const JointSet& fee
     const Joint& joint = skeleton.joints()[i];
     result.bones[i] = joint.translated ? result.bones[i] / seen : joint.offset.cast<double>().norm();
   }
-  result.bones[0] = 0;  // from nowhere
+  result.bones[0] = 0;  // the root has no parent
   result.upright /= seen;
   return result;
 }
 
-/// The mean size of the box around all joints and tips: how high and wide the posed body is, in file units.
+/// The mean size of the box around all joints and tips, that is, the height and width of the posed body, in file units.
 Eigen::Vector3d measure_extent(const Motion& motion) {
   const Skeleton& skeleton = motion.skeleton();
   Eigen::Vector3d extent = Eigen::Vector3d::Zero();
@@ -155,7 +156,7 @@ Eigen::Vector3d measure_extent(const Motion& motion) {
   return extent / seen;
 }
 
-/// The summed bones between two joints.
+/// The summed bone lengths between two joints.
 double path_length(const Skeleton& skeleton, const std::vector<double>& bones, JointIndex a, JointIndex b) {
   double length = 0;
   while (a != b) {
@@ -166,8 +167,8 @@ double path_length(const Skeleton& skeleton, const std::vector<double>& bones, J
   return length;
 }
 
-/// From a foot to the top of the head along the bones, in file units; the shortest of all such ways, since names such
-/// as "ToeBase" and "HeadEnd" match too and only lengthen it.
+/// The length of the bones from a foot to the top of the head, in file units; the shortest of all such paths, because
+/// names such as "ToeBase" and "HeadEnd" match too and only lengthen it.
 double stature(const Skeleton& skeleton, const std::vector<double>& bones, const JointSet& head, const JointSet& feet) {
   double result = std::numeric_limits<double>::infinity();
   JointIndex top = kNoJoint;
@@ -187,7 +188,7 @@ double stature(const Skeleton& skeleton, const std::vector<double>& bones, const
   for (const Tip& tip : skeleton.tips()) {
     if (tip.joint == top) crown = std::max(crown, static_cast<double>(tip.offset.norm()));
   }
-  return result + std::min(crown, 0.25 * result);  // an eye or a camera may hang far off the head
+  return result + std::min(crown, 0.25 * result);  // an eye or a camera may be far from the head
 }
 
 }  // namespace

@@ -15,7 +15,7 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-/// One bone of a body of 1.7 m, depth first.
+/// One bone of a body of 1.7 m, listed depth first.
 struct Bone {
   std::string name;
   int depth;
@@ -42,8 +42,8 @@ const std::vector<Bone> kBody = {{"Hips", 0, {0, 0, 0}},
 struct Style {
   double unit = 0.01;  ///< metres
   UpAxis up = UpAxis::y;
-  bool nameless = false;           ///< joints are called j0, j1, …
-  bool offsets_in_frames = false;  ///< six channels everywhere and OFFSETs of no meaning
+  bool nameless = false;           ///< joints are named j0, j1, …
+  bool offsets_in_frames = false;  ///< six channels everywhere and meaningless OFFSETs
   std::string root_rotation = "0 0 0";
 };
 
@@ -81,7 +81,7 @@ std::vector<std::string> notices_of(const File& file) {
   return texts;
 }
 
-/// How high the head is over the left foot in the first frame, in metres.
+/// The height of the head above the left foot in the first frame, in metres.
 float height_of(const File& file) {
   float height = 0;
   for (JointIndex joint = *file.motion.skeleton().find("Head"); joint > 0;) {
@@ -91,7 +91,7 @@ float height_of(const File& file) {
   return height;
 }
 
-TEST(BvhGuess, TheUnitIsTheOneThatMakesAHumanBody) {
+TEST(BvhGuess, TheUnitIsTheOneThatGivesAHumanBody) {
   for (const double unit : {1.0, 0.01, 0.001, 0.0254, 0.0564}) {
     for (const UpAxis up : {UpAxis::y, UpAxis::z}) {
       const File file = read_text("f", body_text({.unit = unit, .up = up}));
@@ -103,18 +103,16 @@ TEST(BvhGuess, TheUnitIsTheOneThatMakesAHumanBody) {
   }
 }
 
-TEST(BvhGuess, EveryGuessIsTold) {
-  EXPECT_THAT(notices_of(read_text("f", body_text({}))),
-              ElementsAre("up axis y and unit cm (stature 1.56 m) guessed; --up and --unit override"));
+TEST(BvhGuess, EveryGuessIsReported) {
+  EXPECT_THAT(notices_of(read_text("f", body_text({}))), ElementsAre("up axis y and unit cm (stature 1.56 m) guessed"));
   EXPECT_THAT(notices_of(read_text("f", body_text({.unit = 0.0564, .up = UpAxis::z}))),
-              ElementsAre("up axis z and unit 0.0564 m (stature 1.56 m) guessed; --up and --unit override"));
+              ElementsAre("up axis z and unit 0.0564 m (stature 1.56 m) guessed"));
   EXPECT_THAT(notices_of(read_text("f", body_text({}), {.up = UpAxis::y})),
-              ElementsAre("unit cm (stature 1.56 m) guessed; --unit overrides"));
-  EXPECT_THAT(notices_of(read_text("f", body_text({}), {.unit = 0.01})),
-              ElementsAre("up axis y guessed; --up overrides"));
+              ElementsAre("unit cm (stature 1.56 m) guessed"));
+  EXPECT_THAT(notices_of(read_text("f", body_text({}), {.unit = 0.01})), ElementsAre("up axis y guessed"));
 }
 
-TEST(BvhGuess, WhatIsGivenIsObeyedInSilence) {
+TEST(BvhGuess, GivenOptionsAreUsedWithoutANotice) {
   const File file = read_text("f", body_text({}), {.up = UpAxis::z, .unit = 1.0});
   EXPECT_THAT(file.notices, IsEmpty());
   EXPECT_EQ(file.layout.up, UpAxis::z);
@@ -127,12 +125,12 @@ TEST(BvhGuess, UpIsTakenFromPosedFramesAndNotFromTheRestPose) {
   EXPECT_EQ(file.layout.up, UpAxis::y);
 }
 
-TEST(BvhGuess, BonesThatOnlyPositionChannelsGiveAreMeasuredInTheFrames) {
+TEST(BvhGuess, BonesGivenOnlyByPositionChannelsAreMeasuredInTheFrames) {
   const File file = read_text("f", body_text({.unit = 0.001, .offsets_in_frames = true}));
   EXPECT_EQ(file.layout.unit, 0.001);
 }
 
-TEST(BvhGuess, WithoutNamesTheExtentOfTheBodyTells) {
+TEST(BvhGuess, WithoutNamesTheExtentOfTheBodyDecides) {
   for (const UpAxis up : {UpAxis::y, UpAxis::z}) {
     const File file = read_text("f", body_text({.unit = 0.0254, .up = up, .nameless = true}));
     EXPECT_EQ(file.layout.up, up);
@@ -142,21 +140,21 @@ TEST(BvhGuess, WithoutNamesTheExtentOfTheBodyTells) {
   }
 }
 
-TEST(BvhGuess, WhatIsNoHumanBodyIsTakenForCentimetresWithAWarning) {
+TEST(BvhGuess, ANonHumanBodyIsReadInCentimetresWithAWarning) {
   const File file = read_text("f", body_text({.unit = 12.0}));
   EXPECT_EQ(file.layout.unit, 0.01);
   ASSERT_EQ(file.notices.size(), 1u);
   EXPECT_THAT(file.notices[0].text, HasSubstr("0.0013 m tall and may well be wrong"));
 }
 
-TEST(BvhGuess, AnUnusualStatureIsCalledSo) {
+TEST(BvhGuess, AnUnusualStatureIsReported) {
   // 46 inches of bones: a child, or another unit.
   const File file = read_text("f", body_text({.unit = 0.035}));
   ASSERT_EQ(file.notices.size(), 1u);
   EXPECT_THAT(file.notices[0].text, HasSubstr("which is unusual"));
 }
 
-TEST(BvhGuess, ABodyUpsideDownOrLyingIsTold) {
+TEST(BvhGuess, ABodyUpsideDownOrLyingIsReported) {
   const File down = read_text("f", body_text({.root_rotation = "180 0 0"}));
   ASSERT_EQ(down.notices.size(), 2u);
   EXPECT_THAT(down.notices[1].text, HasSubstr("the head is below the feet"));

@@ -36,7 +36,8 @@ std::string shown(std::string_view word) {
   return word.empty() ? "the end of the file" : fmt::format("'{}'", printable(word));
 }
 
-/// Reads one joint after the other and keeps the open ones on a list of its own: files nest thousands deep.
+/// Reads one joint after another and keeps the open ones in a list instead of on the call stack: files nest thousands
+/// deep.
 class HierarchyReader {
  public:
   HierarchyReader(TextReader& reader, std::vector<Notice>& notices) : reader_(reader), notices_(notices) {}
@@ -59,10 +60,10 @@ class HierarchyReader {
     const std::string_view first = reader_.word();
     if (first.empty()) reader_.fail("the file is empty, expected HIERARCHY; export it again");
     if (is_keyword(first, "MOTION")) {
-      reader_.fail("MOTION stands before HIERARCHY; put the HIERARCHY part first, or export the file again");
+      reader_.fail("MOTION comes before HIERARCHY; put the HIERARCHY part first, or export the file again");
     }
     if (!is_keyword(first, "HIERARCHY")) {
-      reader_.fail(fmt::format("expected HIERARCHY, found {}; this is no BVH file", shown(first)));
+      reader_.fail(fmt::format("expected HIERARCHY, found {}; this is not a BVH file", shown(first)));
     }
     const std::string_view root = reader_.word();
     if (!is_keyword(root, "ROOT")) {
@@ -101,8 +102,8 @@ class HierarchyReader {
     Joint joint;
     joint.parent = parent;
     joint.name = read_name(keyword);
-    if (!is_utf8(joint.name) && !told_of_names_) {
-      told_of_names_ = true;
+    if (!is_utf8(joint.name) && !names_reported_) {
+      names_reported_ = true;
       notices_.push_back(reader_.notice(fmt::format(
           "the name '{}' is not UTF-8, it is kept byte for byte; save the file as UTF-8", printable(joint.name))));
     }
@@ -111,7 +112,8 @@ class HierarchyReader {
     result_.channels.emplace_back();
   }
 
-  /// The rest of the line, then an opening brace. The brace may stand on the name's line, though a name may hold one.
+  /// Reads the rest of the line, then an opening brace. The brace may be on the name's line, although a name may
+  /// contain one.
   std::string read_name(std::string_view keyword) {
     std::string name(reader_.rest_of_line());
     name_line_ = reader_.line();
@@ -170,7 +172,7 @@ class HierarchyReader {
                         shown(word)));
       }
       if (std::find(channels.begin(), channels.end(), *channel) != channels.end()) {
-        reader_.fail(fmt::format("channel {} twice in {}; each channel may stand once", printable(word), place()));
+        reader_.fail(fmt::format("channel {} twice in {}; each channel may occur once", printable(word), place()));
       }
       channels.push_back(*channel);
       if (!is_rotation(*channel)) result_.joints[joint].translated = true;
@@ -179,7 +181,7 @@ class HierarchyReader {
   }
 
   void read_tip() {
-    read_name("End");  // nearly always "Site"; the word says nothing
+    read_name("End");  // nearly always "Site"; the word is ignored
     const std::string_view word = reader_.word();
     if (!is_keyword(word, "OFFSET")) {
       reader_.fail(
@@ -196,7 +198,8 @@ class HierarchyReader {
 
   void close_joint() {
     if (!open_.back().has_offset) {
-      reader_.fail(fmt::format("{} has no OFFSET; add one, 'OFFSET 0 0 0' where it stands on its parent", place()));
+      reader_.fail(
+          fmt::format("{} has no OFFSET; add one, 'OFFSET 0 0 0' where it coincides with its parent", place()));
     }
     open_.pop_back();
   }
@@ -211,9 +214,9 @@ class HierarchyReader {
   TextReader& reader_;
   std::vector<Notice>& notices_;
   Hierarchy result_;
-  std::vector<Open> open_;  ///< from the root to the joint that is being read
+  std::vector<Open> open_;  ///< from the root to the joint being read
   std::size_t name_line_ = 1;
-  bool told_of_names_ = false;
+  bool names_reported_ = false;
 };
 
 }  // namespace
@@ -227,8 +230,8 @@ bool is_keyword(std::string_view word, std::string_view keyword) noexcept {
 double checked_number(TextReader& reader, std::string_view what) {
   const double value = reader.number(what);
   if (std::abs(value) > kLargest) {
-    reader.fail(
-        fmt::format("{:g} is too large for {}; nothing past {:g} is taken for a measurement", value, what, kLargest));
+    reader.fail(fmt::format("{:g} is too large for {}; values beyond {:g} are not accepted as measurements", value,
+                            what, kLargest));
   }
   return value;
 }

@@ -8,31 +8,32 @@
 #include "signweave/core/text_reader.h"
 #include "signweave/formats/bvh/bvh.h"
 
-/// The HIERARCHY half of a BVH file. Part of formats/bvh, not for others.
+/// The HIERARCHY half of a BVH file. Internal to formats/bvh.
 namespace signweave::bvh {
 
-/// Joints as in the file: its units, its axes.
+/// The joints in the file's units and axes.
 struct Hierarchy {
   std::vector<Joint> joints;                   ///< depth first, as in the file
   std::vector<Tip> tips;                       ///< in file order
   std::vector<std::vector<Channel>> channels;  ///< [joint]
-  std::size_t channel_count = 0;               ///< numbers a frame
+  std::size_t channel_count = 0;               ///< numbers per frame
 };
 
-/// How a channel is written: [Channel].
+/// The spelling of each channel, [Channel].
 inline constexpr std::array<std::string_view, 6> kChannelNames = {"Xposition", "Yposition", "Zposition",
                                                                   "Xrotation", "Yrotation", "Zrotation"};
 
-/// Lengths and angles past this are no measurements, and would not survive the arithmetic.
+/// Lengths and angles beyond this are not measurements, and would overflow the arithmetic.
 inline constexpr double kLargest = 1e9;
 
-/// True where a word is this keyword; upper and lower case are one.
+/// True if a word is this keyword, ignoring case.
 bool is_keyword(std::string_view word, std::string_view keyword) noexcept;
 
-/// A number of the file within ±kLargest.
+/// Reads a number within ±kLargest; `what` names it in errors.
 double checked_number(TextReader& reader, std::string_view what);
 
-/// Reads from HIERARCHY to the brace that closes the root; nesting costs no stack. Throws Error{bad_input}.
+/// Reads from HIERARCHY to the brace that closes the root; nesting does not use the call stack. Throws
+/// Error{bad_input}.
 Hierarchy read_hierarchy(TextReader& reader, std::vector<Notice>& notices);
 
 }  // namespace signweave::bvh

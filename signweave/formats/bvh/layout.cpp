@@ -44,7 +44,8 @@ Layout default_layout(const Skeleton& skeleton) {
 
 namespace {
 
-/// A turn of all axes takes what one column held to others: a joint with some positions or rotations gets all three.
+/// A rotation of all axes moves the content of one column to others, so a joint with some positions or rotations gets
+/// all three.
 void widen(std::vector<Channel>& channels) {
   const auto some = [&](bool rotations) {
     return std::any_of(channels.begin(), channels.end(), [&](Channel c) { return is_rotation(c) == rotations; });
@@ -55,7 +56,7 @@ void widen(std::vector<Channel>& channels) {
       channels.insert(channels.begin() + at++, channel);
     }
   };
-  if (some(false)) {  // behind the last position, before what follows
+  if (some(false)) {  // after the last position, before what follows
     const auto last = std::find_if(channels.rbegin(), channels.rend(), [](Channel c) { return !is_rotation(c); });
     add({Channel::x_position, Channel::y_position, Channel::z_position}, last.base() - channels.begin());
   }
@@ -66,19 +67,19 @@ void widen(std::vector<Channel>& channels) {
 
 }  // namespace
 
-Layout with(Layout layout, const LayoutWishes& wishes) {
-  if (wishes.up && *wishes.up != layout.up) {
+Layout with(Layout layout, const LayoutChanges& changes) {
+  if (changes.up && *changes.up != layout.up) {
     for (std::vector<Channel>& channels : layout.channels) widen(channels);
   }
-  if (wishes.order) {
+  if (changes.order) {
     for (std::vector<Channel>& channels : layout.channels) {
       std::erase_if(channels, is_rotation);
-      channels.insert(channels.end(), wishes.order->begin(), wishes.order->end());
+      channels.insert(channels.end(), changes.order->begin(), changes.order->end());
     }
     layout.root_columns = RootColumns::declared;
   }
-  if (wishes.up) layout.up = *wishes.up;
-  if (wishes.unit) layout.unit = layout.root_unit = *wishes.unit;
+  if (changes.up) layout.up = *changes.up;
+  if (changes.unit) layout.unit = layout.root_unit = *changes.unit;
   return layout;
 }
 
@@ -99,8 +100,8 @@ bool fits(const Layout& layout, const Skeleton& skeleton) noexcept {
   return count > 0;
 }
 
-// version u8 · up u8 · mirrored u8 · root columns u8 · unit f64 · root unit f64 · frame time text ·
-// joints u32 · for each joint: channels u8, then each u8
+// Stored form: version u8 · up u8 · mirrored u8 · root columns u8 · unit f64 · root unit f64 · frame time text · joints
+// u32 · for each joint: channels u8, then each u8.
 void encode(const Layout& layout, ByteWriter& out) {
   out.number(kVersion);
   out.number(layout.up);
@@ -129,7 +130,7 @@ Layout decode_layout(ByteReader& in) {
   layout.root_columns = flag("an unknown root order") ? RootColumns::rotation_first : RootColumns::declared;
   layout.unit = in.number<double>();
   layout.root_unit = in.number<double>();
-  if (!is_unit(layout.unit) || !is_unit(layout.root_unit)) in.fail("a unit that is no length");
+  if (!is_unit(layout.unit) || !is_unit(layout.root_unit)) in.fail("a unit that is not a length");
   layout.frame_time = in.text();
   layout.channels.resize(in.count(1));
   for (std::vector<Channel>& channels : layout.channels) {

@@ -16,7 +16,8 @@
 namespace signweave::bvh {
 namespace {
 
-/// The root's channels as its columns are to be read: with rotation_first the declared rotations, then the positions.
+/// The root's channels in the order in which its columns are read: with rotation_first the declared rotations, then the
+/// positions.
 std::vector<Channel> root_columns(const std::vector<Channel>& declared, RootColumns order, const TextReader& reader) {
   if (order == RootColumns::declared) return declared;
   if (!has_positions_then_rotations(declared)) {
@@ -30,7 +31,7 @@ std::vector<Channel> root_columns(const std::vector<Channel>& declared, RootColu
   return columns;
 }
 
-/// Where a column of positions goes.
+/// The destination of a column of positions.
 struct PositionColumn {
   std::size_t column;
   std::size_t translation;  ///< [translated joint]
@@ -76,7 +77,7 @@ void check(const ReadOptions& options) {
   }
 }
 
-/// Fills in what the file does not say: as told, else as guessed, and then with a notice.
+/// Fills in what the file does not say: from the options, or else guessed, with a notice.
 void settle_space(const Motion& motion, const ReadOptions& options, Layout& layout, const std::string& name,
                   std::vector<Notice>& notices) {
   layout.mirrored = options.mirror;
@@ -105,7 +106,7 @@ void settle_space(const Motion& motion, const ReadOptions& options, Layout& layo
   layout.root_unit = options.root_unit.value_or(layout.unit);
 }
 
-/// Takes skeleton and poses from the file's units and axes to ours, in place.
+/// Converts skeleton and poses from the file's units and axes to ours, in place.
 void to_our_space(Motion& motion, Skeleton& skeleton, Hierarchy hierarchy, const Layout& layout) {
   const Space space{.up = layout.up, .mirrored = layout.mirrored};
   const auto converted = [&](const Eigen::Vector3f& v, double unit) {
@@ -134,8 +135,8 @@ File read(TextReader& reader, const ReadOptions& options) {
   if (hierarchy.channel_count == 0) reader.fail("no joint has channels, so the file holds no motion; export it again");
   const MotionHeader header = read_header(reader, file.notices);
 
-  // The unit and the up axis are known only when all frames are read, so the skeleton that the motion shares is
-  // exchanged then, before anybody else has seen it.
+  // The unit and the up axis are known only after all frames are read, so the skeleton that the motion shares is
+  // replaced then, before any other code has access to it.
   const auto skeleton = std::make_shared<Skeleton>(hierarchy.joints, hierarchy.tips);
   file.motion = Motion(skeleton, header.rate.rate);
   FrameReader frames(reader, hierarchy, header, options);
@@ -143,7 +144,7 @@ File read(TextReader& reader, const ReadOptions& options) {
 
   if (frames.odd_line() != 0) {
     file.notices.push_back({fmt::format("{}:{}", reader.name(), frames.odd_line()),
-                            "lines and frames do not fall together, though the count of numbers is right"});
+                            "line breaks do not match the frames, although the count of numbers is right"});
   }
   if (frames.root_is_permuted() && options.root_columns == RootColumns::declared) {
     file.notices.push_back({reader.name(),

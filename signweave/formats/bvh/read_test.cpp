@@ -35,7 +35,7 @@ std::string fault_in_text(std::string_view text, const ReadOptions& options = {}
   return "no fault";
 }
 
-TEST(BvhRead, RotationChannelsTurnOneAfterTheOtherInTheirOrder) {
+TEST(BvhRead, RotationChannelsAreAppliedInTheirOrder) {
   const File zxy = read_plainly(one_joint("CHANNELS 3 Zrotation Xrotation Yrotation", "10 20 30"));
   EXPECT_LT(degrees_between(zxy.motion.pose(0).rotations[0], about(10, kZ) * about(20, kX) * about(30, kY)), 1e-4);
   const File yzx = read_plainly(one_joint("CHANNELS 3 Yrotation Zrotation Xrotation", "10 20 30"));
@@ -43,7 +43,7 @@ TEST(BvhRead, RotationChannelsTurnOneAfterTheOtherInTheirOrder) {
   EXPECT_THAT(yzx.layout.channels[0], ElementsAre(Channel::y_rotation, Channel::z_rotation, Channel::x_rotation));
 }
 
-TEST(BvhRead, ChannelsMayStandInAnyOrder) {
+TEST(BvhRead, ChannelsMayBeInAnyOrder) {
   const File file = read_plainly(
       one_joint("CHANNELS 6 Yrotation Zposition Xrotation Xposition Zrotation Yposition", "10 3 20 1 30 2"));
   EXPECT_EQ(file.motion.pose(0).translations[0], Eigen::Vector3f(1, 2, 3));
@@ -113,7 +113,7 @@ TEST(BvhRead, NamesAreTheRestOfTheirLine) {
   for (std::size_t i = 0; i < names.size(); ++i) EXPECT_EQ(file.motion.skeleton().joints()[i + 1].name, names[i]);
 }
 
-TEST(BvhRead, ABraceMayStandOnTheLineOfTheName) {
+TEST(BvhRead, ABraceMayBeOnTheLineOfTheName) {
   const File file = read_plainly(
       "HIERARCHY\nROOT My Hips {\nOFFSET 0 0 0\nCHANNELS 1 Xrotation\nEnd Site {\nOFFSET 0 1 0\n}\nJOINT odd{\n{\n"
       "OFFSET 0 0 0\nCHANNELS 0\n}\n}\nMOTION\nFrames: 1\nFrame Time: 0.01\n5\n");
@@ -218,15 +218,16 @@ constexpr std::string_view kPermuted =
     "Zrotation Xrotation Yrotation\n}\nMOTION\nFrames: 2\nFrame Time: 0.01\n"
     "10 20 30 0.1 0.9 -0.25\n11 21 31 0.1 0.9 -0.25\n";
 
-TEST(BvhRead, APermutedRootIsNamedAndLeftAsDeclared) {
+TEST(BvhRead, APermutedRootIsReportedAndReadAsDeclared) {
   const File file = read_plainly(kPermuted);
   ASSERT_EQ(file.notices.size(), 1u);
-  EXPECT_THAT(file.notices[0].text, HasSubstr("--root-order rotation_first --root-unit m"));
+  EXPECT_THAT(file.notices[0].text, HasSubstr("look permuted"));
+  EXPECT_EQ(file.notices[0].remedies, (Remedies{{"root_order", "rotation_first"}, {"root_unit", "m"}}));
   EXPECT_EQ(file.motion.pose(0).translations[0], Eigen::Vector3f(10, 20, 30));
   EXPECT_EQ(file.layout.root_columns, RootColumns::declared);
 }
 
-TEST(BvhRead, APermutedRootIsMendedWhenAsked) {
+TEST(BvhRead, APermutedRootIsFixedOnRequest) {
   const File file = read_text(
       "f", kPermuted, {.up = UpAxis::y, .unit = 0.01, .root_unit = 1.0, .root_columns = RootColumns::rotation_first});
   EXPECT_THAT(file.notices, IsEmpty());
@@ -244,24 +245,24 @@ TEST(BvhRead, ARootThatOnlySometimesHoldsItsOffsetIsNotCalledPermuted) {
 TEST(BvhRead, RotationFirstNeedsARootThatCanBePermuted) {
   EXPECT_THAT(fault_in_text(one_joint("CHANNELS 3 Zrotation Xrotation Yrotation", "1 2 3"),
                             {.root_columns = RootColumns::rotation_first}),
-              HasSubstr("leave --root-order away"));
+              HasSubstr("only if CHANNELS names three positions"));
 }
 
-TEST(BvhRead, FramesThatDoNotFallTogetherWithLinesAreNoticed) {
+TEST(BvhRead, FramesThatDoNotMatchLinesAreReported) {
   const File file = read_plainly(chain({}, {"1 2 3 4 5 6", "1 2 3\n4 5 6", "1 2 3 4 5 6"}));
   EXPECT_EQ(file.motion.frame_count(), 3);
   ASSERT_EQ(file.notices.size(), 1u);
   EXPECT_EQ(file.notices[0].where, "f.bvh:15");
 }
 
-TEST(BvhRead, ANameThatIsNotUtf8IsKeptAndNoticed) {
+TEST(BvhRead, ANameThatIsNotUtf8IsPreservedAndReported) {
   const File file = read_plainly(chain({"\xE9paule"}, {"1 2 3 4 5 6 7 8 9"}));
   EXPECT_EQ(file.motion.skeleton().joint(1).name, "\xE9paule");
   ASSERT_EQ(file.notices.size(), 1u);
   EXPECT_THAT(file.notices[0].text, HasSubstr("UTF-8"));
 }
 
-TEST(BvhRead, DeepNestingCostsNoStack) {
+TEST(BvhRead, DeepNestingDoesNotUseTheCallStack) {
   std::string deep = "HIERARCHY\nROOT a\n{\nOFFSET 0 0 0\nCHANNELS 1 Xrotation\n";
   const auto nest = [](std::string text, int levels) {
     for (int i = 0; i < levels; ++i) text += "JOINT a\n{\nOFFSET 0 0 0\n";
@@ -283,7 +284,7 @@ TEST(BvhRead, AHugeCountOfFramesAllocatesNothing) {
               HasSubstr("the file ends after 1 whole frames, but Frames: says 9223372036854775807"));
 }
 
-TEST(BvhRead, AFewNumbersDoNotBecomeGigabytesOfJointsAtRest) {
+TEST(BvhRead, AFewNumbersDoNotExpandToGigabytesOfJointsAtRest) {
   std::string text = "HIERARCHY\nROOT a\n{\nOFFSET 0 0 0\nCHANNELS 1 Xrotation\n";
   for (int i = 0; i < 5'000; ++i) text += "JOINT a\n{\nOFFSET 0 0 0\n}\n";
   text += "}\nMOTION\nFrames: 1000000\nFrame Time: 0.01\n";
@@ -310,7 +311,7 @@ TEST(BvhRead, ProgressRisesToOneAndMayCancel) {
   EXPECT_THROW(read_text("f", text, {.progress = stop}), Error);
 }
 
-TEST(BvhRead, AFileThatIsNotThereIsNotFound) {
+TEST(BvhRead, AMissingFileIsNotFound) {
   try {
     read("/nowhere/at/all.bvh");
     FAIL();

@@ -4,11 +4,11 @@
 
 #include "signweave/formats/bvh/bvh.h"
 
-/// Between a BVH file's space and ours (metres, Y up, right-handed). Part of formats/bvh, not for others.
+/// Conversion between a BVH file's space and ours (metres, Y up, right-handed). Internal to formats/bvh.
 namespace signweave::bvh {
 
-/// One change of basis for the whole file, rest pose and frames alike: offset' = unit · C · offset, q' = C q C⁻¹.
-/// It only swaps and negates components, so going there and back gives the same bits.
+/// One change of basis for the whole file, rest pose and frames alike: offset' = unit · C · offset, q' = C q C⁻¹. It
+/// only swaps and negates components, so a round trip gives the same bits.
 struct Space {
   UpAxis up = UpAxis::y;
   bool mirrored = false;  ///< C also reflects x
@@ -25,7 +25,7 @@ struct Space {
   Eigen::Quaternionf to_file(const Eigen::Quaternionf& q) const noexcept { return with_axis(q, to_file(axis(q))); }
 
  private:
-  // The axis of a rotation is a pseudovector: a reflection turns it the other way once more.
+  // The axis of a rotation is a pseudovector: a reflection reverses it once more.
   Eigen::Vector3f axis(const Eigen::Quaternionf& q) const noexcept {
     return mirrored ? Eigen::Vector3f(-q.vec()) : Eigen::Vector3f(q.vec());
   }
@@ -34,7 +34,7 @@ struct Space {
   }
 };
 
-/// A length of the file in metres; the writer looks for numbers that this takes back to the same bits.
+/// Converts a length of the file to metres; the writer searches for numbers that this converts back to the same bits.
 inline float to_metres(float length, double unit) noexcept {
   return static_cast<float>(static_cast<double>(length) * unit);
 }

@@ -9,8 +9,8 @@
 namespace signweave::bvh {
 namespace {
 
-// sin(πt/2)/t and cos(πt/2) for |t| ≤ 1 as polynomials in t², by Remez' algorithm; the greatest errors are 1.8e-16 and
-// 4e-18 before rounding.
+// sin(πt/2)/t and cos(πt/2) for |t| ≤ 1 as polynomials in t², found with Remez' algorithm; the largest errors are
+// 1.8e-16 and 4e-18 before rounding.
 constexpr double kSine[] = {1.57079632679489644,       -0.64596409750622329147,   0.079692626245684381145,
                             -0.0046817541314531674518, 0.00016044116958054572834, -3.5988107318876887167e-6,
                             5.6883199237145605062e-8,  -6.4495243664146110058e-10};
@@ -23,7 +23,7 @@ constexpr double kCosine[] = {1.0,
                               4.7108307704927393579e-7,
                               -6.3822375938378088328e-9,
                               6.3317744472156721287e-11};
-/// Added and taken off again, it rounds to a whole number, which then stands in the lowest bits.
+/// Adding and subtracting it rounds to a whole number, whose value is then in the lowest bits.
 constexpr double kRounds = 0x1.8p52;
 
 }  // namespace
@@ -95,7 +95,7 @@ void Turns::apply(std::span<const double> numbers, std::span<Eigen::Quaternionf>
     const double ss = axes.hand * (s[0] * s[1]);
     const double sc = s[0] * c[1];
     const double cs = c[0] * s[1];
-    // Sines and cosines are exact enough that the product has length 1 as far as a float can tell.
+    // Sines and cosines are so accurate that the product has length 1 within the precision of a float.
     std::array<float, 3> vector;
     vector[axes.first] = static_cast<float>(sc * c[2] + axes.hand * (cs * s[2]));
     vector[axes.second] = static_cast<float>(cs * c[2] - axes.hand * (sc * s[2]));

@@ -7,29 +7,29 @@
 
 #include "signweave/formats/bvh/bvh.h"
 
-/// From the angles of a frame to its rotations. Part of formats/bvh, not for others.
+/// Converts the angles of a frame to rotations. Internal to formats/bvh.
 namespace signweave::bvh {
 
-/// Sines and cosines of half of many angles. Of degrees up to ±10^9 each lies within 1e-15 of the exact value: full
-/// turns are taken off without rounding, then a polynomial over half a turn serves, so that the compiler does several
-/// at once. `sines` and `cosines` must be as long as `degrees`.
+/// Computes the sines and cosines of half of each angle. For angles up to ±10^9 degrees each is within 1e-15 of the
+/// exact value: full turns are subtracted without rounding, then a polynomial is evaluated over half a turn, which the
+/// compiler vectorizes. `sines` and `cosines` must be as long as `degrees`.
 void half_angles(std::span<const double> degrees, std::span<double> sines, std::span<double> cosines) noexcept;
 
-/// Makes the rotations of frame after frame; its buffers are used again.
+/// Computes the rotations of one frame after another; its buffers are reused.
 class Turns {
  public:
-  /// `channels` is [joint], as the columns of a frame hold them: the rotation channels of a joint turn one after the
-  /// other about the joint's own axes.
+  /// `channels` is [joint], in the column order of a frame: the rotation channels of a joint turn one after another
+  /// about the joint's own axes.
   explicit Turns(const std::vector<std::vector<Channel>>& channels);
 
-  /// Of `numbers`, all columns of one frame, makes `rotations` [joint].
+  /// Computes `rotations` [joint] from `numbers`, all columns of one frame.
   void apply(std::span<const double> numbers, std::span<Eigen::Quaternionf> rotations);
 
  private:
-  /// The three axes about which a joint turns, first to last; those that have no channel turn by 0.
+  /// The three axes about which a joint turns, first to last; those without a channel turn by 0.
   struct Axes {
     std::uint8_t first = 0, second = 1, third = 2;
-    double hand = 1;  ///< −1 where they follow each other as z → y → x
+    double hand = 1;  ///< −1 if their cyclic order is z → y → x
   };
   static constexpr std::uint32_t kNoColumn = 0xFFFFFFFF;
 

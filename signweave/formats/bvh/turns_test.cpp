@@ -22,12 +22,12 @@ Halves halves_of(const std::vector<double>& degrees) {
   return halves;
 }
 
-/// The greatest distance from what the standard library finds with more digits.
+/// The largest deviation from the standard library's result in higher precision.
 double worst_of(const std::vector<double>& degrees) {
   const Halves halves = halves_of(degrees);
   double worst = 0;
   for (std::size_t i = 0; i < degrees.size(); ++i) {
-    // Whole double turns are taken off exactly first: π as a long double is not exact enough for many of them.
+    // Full double turns are subtracted exactly first: π as a long double is not accurate enough for many of them.
     const long double half =
         std::fmod(static_cast<long double>(degrees[i]), 720.0L) * std::numbers::pi_v<long double> / 360;
     worst = std::max(worst, static_cast<double>(std::abs(std::sin(half) - halves.sines[i])));
@@ -48,7 +48,7 @@ TEST(BvhTurns, HalfAnglesLieWithinTheirBoundOverTheWholeRange) {
   }
 }
 
-TEST(BvhTurns, NothingTurnedIsExact) {
+TEST(BvhTurns, ZeroAnglesAreExact) {
   const Halves halves = halves_of({0.0, -0.0, 720.0, 360.0});
   EXPECT_EQ(halves.sines, (std::vector<double>{0, 0, 0, 0}));
   EXPECT_EQ(halves.cosines, (std::vector<double>{1, 1, 1, -1}));
@@ -88,7 +88,7 @@ RC_GTEST_PROP(BvhTurns, RotationsAreTheProductOfTheirChannelsInOrder, ()) {
       expected = expected * Eigen::AngleAxisd(value * std::numbers::pi / 180,
                                               Eigen::Vector3d::Unit(static_cast<int>(channel) - 3));
     }
-    // Half a unit in the last place of a float, and hardly more: the product itself is exact.
+    // Half a unit in the last place of a float, and hardly more, because the product itself is exact.
     RC_ASSERT((rotations[joint].coeffs().cast<double>() - expected.coeffs()).cwiseAbs().maxCoeff() < 3.0e-8);
   }
 }

@@ -18,12 +18,12 @@ namespace signweave::bvh {
 namespace {
 
 constexpr std::size_t kFlushAt = std::size_t{1} << 16;
-constexpr std::size_t kDeepestIndent = 24;  ///< a chain of 60,000 joints would be all tabs otherwise
+constexpr std::size_t kDeepestIndent = 24;  ///< otherwise a chain of 60,000 joints would be mostly tabs
 constexpr std::size_t kNotTranslated = static_cast<std::size_t>(-1);
-constexpr int kAngleDecimals = 5;  ///< degrees; what follows is the rounding of float quaternions
+constexpr int kAngleDecimals = 5;  ///< degrees; further digits are the rounding of float quaternions
 using Sink = std::function<void(std::string_view)>;
 
-/// The shortest decimal of six places or more that reads back as this rate, or comes nearest to it.
+/// The shortest decimal of six places or more that reads back as this rate, or else the one nearest to it.
 std::string frame_time_text(FrameRate rate) {
   for (int decimals = 6; decimals < 17; ++decimals) {
     std::string text = fmt::format("{:.{}f}", rate.frame_time().count(), decimals);
@@ -106,7 +106,7 @@ class Writer {
     text_ += '\n';
   }
 
-  /// Opens a joint: everything but its children and its closing brace.
+  /// Opens a joint: writes everything except its children and its closing brace.
   void write_joint(std::size_t joint, std::size_t depth) {
     indent(depth);
     text_ += joint == 0 ? "ROOT " : "JOINT ";
@@ -136,7 +136,8 @@ class Writer {
     text_ += "}\n";
   }
 
-  /// Depth first with a list of its own, since files nest thousands deep. The order met is the order of the columns.
+  /// Depth first with an explicit list, because files nest thousands deep. The order visited is the order of the
+  /// columns.
   void write_hierarchy() {
     const std::size_t joints = skeleton_.joint_count();
     std::vector<std::vector<std::size_t>> children(joints);
@@ -174,7 +175,7 @@ class Writer {
   }
 
   void write_header() {
-    // The text of the file stands only for the rate that it was read as; a motion of another rate prints its own.
+    // The file's own text is used only for the rate it was read as; a motion with another rate prints its own.
     const std::optional<SnappedRate> printed = snap_frame_time(layout_.frame_time);
     const bool keep = printed && printed->rate == motion_.rate();
     text_ += fmt::format("MOTION\nFrames: {}\nFrame Time: {}\n", motion_.frame_count(),
@@ -208,7 +209,7 @@ class Writer {
     flush();
   }
 
-  /// Float quaternions have length 1 to within rounding, and angles do not ask for more.
+  /// Float quaternions have length 1 except for rounding, which is sufficient for angles.
   static Eigen::Quaterniond of_length_1(const Eigen::Quaterniond& rotation) noexcept {
     return std::abs(rotation.squaredNorm() - 1) < 1e-5 ? rotation : rotation.normalized();
   }
@@ -218,12 +219,12 @@ class Writer {
   const Layout& layout_;
   Space space_;
   const Sink& sink_;
-  std::vector<std::vector<Channel>> columns_;  ///< [joint], as they stand in a frame
+  std::vector<std::vector<Channel>> columns_;  ///< [joint], in the order of a frame
   AngleFinder finder_;
-  std::vector<Eigen::Quaterniond> rotations_;  ///< [joint], of the frame that is being written
+  std::vector<Eigen::Quaterniond> rotations_;  ///< [joint], of the frame being written
   std::vector<std::size_t> order_;             ///< joints in the file's order
   std::vector<std::size_t> translations_;      ///< [joint], or kNotTranslated
-  DecimalText numbers_;                        ///< of the line that is being written
+  DecimalText numbers_;                        ///< of the line being written
   std::string text_;
 };
 

@@ -47,13 +47,13 @@ Frame Time: 0.008333
 -6.25 88 -161.5 17.5 7 5 370 46 8.25
 )";
 
-TEST(BvhWrite, ATidyFileComesBackLetterByLetter) {
+TEST(BvhWrite, ATidyFileIsReproducedCharacterByCharacter) {
   for (const UpAxis up : {UpAxis::y, UpAxis::z}) {
     for (const bool mirror : {false, true}) {
       for (const double unit : {1.0, 0.01, 0.001, 0.0254, 0.0564}) {
         const File file = read_text("f", kTidy, {.up = up, .unit = unit, .root_unit = 2 * unit, .mirror = mirror});
         std::string written = write_text(file.motion, file.layout);
-        // A whole turn is the one thing a quaternion does not hold.
+        // Full turns are the only information that a quaternion loses.
         written.replace(written.find(" 10 46 8.25"), 3, " 370");
         EXPECT_EQ(written, kTidy) << unit;
       }
@@ -61,7 +61,7 @@ TEST(BvhWrite, ATidyFileComesBackLetterByLetter) {
   }
 }
 
-TEST(BvhWrite, APermutedRootIsWrittenAsItCame) {
+TEST(BvhWrite, APermutedRootIsWrittenAsItWasRead) {
   const std::string text =
       "HIERARCHY\nROOT Hips\n{\n\tOFFSET 0.1 0.9 -0.25\n\tCHANNELS 6 Zposition Yposition Xposition "
       "Zrotation Xrotation Yrotation\n}\nMOTION\nFrames: 2\nFrame Time: 0.01\n"
@@ -72,7 +72,7 @@ TEST(BvhWrite, APermutedRootIsWrittenAsItCame) {
   EXPECT_EQ(write_text(file.motion, file.layout), text);
 }
 
-TEST(BvhWrite, AnglesRunOnPastHalfATurnInsteadOfJumping) {
+TEST(BvhWrite, AnglesContinuePastHalfATurnInsteadOfJumping) {
   std::vector<std::string> frames;
   for (int i = 0; i < 80; ++i) frames.push_back("0 0 0 " + std::to_string(i * 10) + " 0 0");
   const File file = read_plainly(chain({}, frames));
@@ -107,7 +107,7 @@ TEST(BvhWrite, AMotionOfAnotherRatePrintsItsOwnFrameTime) {
   }
 }
 
-TEST(BvhWrite, JointsThatDoNotComeDepthFirstAreWrittenSo) {
+TEST(BvhWrite, JointsInAnyOrderAreWrittenDepthFirst) {
   const auto skeleton = std::make_shared<const Skeleton>(std::vector<Joint>{{"root", kNoJoint, {0, 0, 0}, true},
                                                                             {"left", 0, {1, 0, 0}, false},
                                                                             {"right", 0, {2, 0, 0}, false},
@@ -173,7 +173,7 @@ TEST(BvhLayout, IsStoredAndReadBack) {
   in.finish();
 }
 
-TEST(BvhLayout, DamagedBytesAreRefusedAndNeverMore) {
+TEST(BvhLayout, DamagedBytesAreRefusedWithoutOtherEffects) {
   const File file = read_plainly(kTidy);
   ByteWriter out;
   encode(file.layout, out);
@@ -229,7 +229,7 @@ std::string random_text() {
   for (int frame = 0; frame < frames; ++frame) {
     for (const std::string& column : columns) {
       const bool rotation = column[1] == 'r';
-      // Multiples of 45° now and then: gimbal lock and half turns.
+      // Sometimes multiples of 45°, for gimbal lock and half turns.
       text += rotation && *rc::gen::inRange(0, 4) == 0 ? std::to_string(45 * *rc::gen::inRange(-8, 9))
                                                        : number(rotation ? 400 : 200, 1'000'000);
       text += ' ';
@@ -264,15 +264,15 @@ RC_GTEST_PROP(BvhWrite, InAnyOrderAxisAndUnitItShowsTheSame, ()) {
   constexpr Channel kZTurn = Channel::z_rotation;
   using Order = std::array<Channel, 3>;
   const File first = read_text("first", random_text(), {.unit = 0.01, .mirror = *rc::gen::arbitrary<bool>()});
-  const LayoutWishes wishes{.order = *rc::gen::element(Order{kXTurn, kYTurn, kZTurn}, Order{kXTurn, kZTurn, kYTurn},
-                                                       Order{kYTurn, kXTurn, kZTurn}, Order{kYTurn, kZTurn, kXTurn},
-                                                       Order{kZTurn, kXTurn, kYTurn}, Order{kZTurn, kYTurn, kXTurn}),
-                            .up = *rc::gen::element(UpAxis::y, UpAxis::z),
-                            .unit = *rc::gen::element(1.0, 0.01, 0.0254)};
-  const Layout layout = with(first.layout, wishes);
+  const LayoutChanges changes{.order = *rc::gen::element(Order{kXTurn, kYTurn, kZTurn}, Order{kXTurn, kZTurn, kYTurn},
+                                                         Order{kYTurn, kXTurn, kZTurn}, Order{kYTurn, kZTurn, kXTurn},
+                                                         Order{kZTurn, kXTurn, kYTurn}, Order{kZTurn, kYTurn, kXTurn}),
+                              .up = *rc::gen::element(UpAxis::y, UpAxis::z),
+                              .unit = *rc::gen::element(1.0, 0.01, 0.0254)};
+  const Layout layout = with(first.layout, changes);
   RC_ASSERT(fits(layout, first.motion.skeleton()));
   for (const std::vector<Channel>& channels : layout.channels) {
-    RC_ASSERT(std::equal(channels.end() - 3, channels.end(), wishes.order->begin()));
+    RC_ASSERT(std::equal(channels.end() - 3, channels.end(), changes.order->begin()));
   }
   const File second = read_text("second", write_text(first.motion, layout),
                                 {.up = layout.up, .unit = layout.unit, .mirror = layout.mirrored});

@@ -5,7 +5,7 @@
 
 namespace signweave {
 
-/// A field of a CSV row (RFC 4180): quoted where it holds a comma, a quote or a line end.
+/// A field of a CSV row (RFC 4180): quoted if it contains a comma, a quote or a line end.
 inline std::string csv_field(std::string_view text) {
   if (text.find_first_of(",\"\r\n") == text.npos) return std::string(text);
   std::string quoted = "\"";

@@ -5,7 +5,7 @@
 namespace signweave {
 namespace {
 
-TEST(RotationsCsv, HasAQuaternionForEachJointAndAPlaceWhereAJointHasItsOwn) {
+TEST(RotationsCsv, HasAQuaternionForEachJointAndAPositionForTranslatedOnes) {
   const auto skeleton = std::make_shared<const Skeleton>(
       std::vector<Joint>{{.name = "hips", .parent = kNoJoint, .offset = {0, 0, 0}, .translated = true},
                          {.name = "hand, left", .parent = 0, .offset = {0, 1, 0}}},

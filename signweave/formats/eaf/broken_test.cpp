@@ -22,7 +22,7 @@ std::vector<std::string> broken_eaf_files() {
 
 class BrokenEaf : public testing::TestWithParam<std::string> {};
 
-/// The error, where there is one, without the file's folder.
+/// The error without the file's folder; empty if there is none.
 std::string eaf_error(const std::filesystem::path& path) {
   try {
     read(path, Unsound::refused);
@@ -53,14 +53,14 @@ TEST(BrokenEaf, NoExpectationIsWithoutItsFile) {
   EXPECT_GE(expectations, 40U);
 }
 
-TEST(BrokenEaf, EveryBeginningOfAFileIsReadOrRefused) {
+TEST(BrokenEaf, EveryPrefixOfAFileIsReadOrRefused) {
   const std::string whole = testfile("constraints.eaf");
   for (std::size_t size = 0; size + 2 < whole.size(); ++size) {
     EXPECT_THROW(read_text("cut.eaf", std::string_view(whole).substr(0, size)), Error) << size;
   }
 }
 
-TEST(BrokenEaf, ElementsNestedVeryDeeplyDoNoHarm) {
+TEST(BrokenEaf, VeryDeepNestingIsHarmless) {
   std::string text = "<ANNOTATION_DOCUMENT FORMAT=\"3.0\">";
   for (int i = 0; i < 100'000; ++i) text += "<TIER>";
   EXPECT_THROW(read_text("deep.eaf", text), Error);
@@ -76,7 +76,7 @@ TEST(BrokenEaf, ElementsNestedVeryDeeplyDoNoHarm) {
 
 TEST(BrokenEaf, AVeryLongChainOfTiersIsReadAndWritten) {
   constexpr int kCount = 20'000;
-  std::string tiers;  // the child first, so that every step is a step up
+  std::string tiers;  // child first, so that every step goes up
   for (int i = kCount; i > 0; --i) {
     tiers += tier(fmt::format("t{}", i), i == 1 ? "root" : "fill", i == 1 ? "" : fmt::format("t{}", i - 1),
                   alignable(fmt::format("a{}", i), 1, 2));
@@ -88,7 +88,7 @@ TEST(BrokenEaf, AVeryLongChainOfTiersIsReadAndWritten) {
   EXPECT_EQ(without_source(reread(file.document)).tiers, file.document.tiers);
 }
 
-TEST(BrokenEaf, AFileThatIsNotThereIsNotFound) {
+TEST(BrokenEaf, AMissingFileIsNotFound) {
   try {
     read("/no/such/folder/x.eaf");
     FAIL() << "not refused";

@@ -30,7 +30,7 @@ File read_text(std::string name, std::string_view text, Unsound unsound) {
 
 namespace {
 
-/// True where the document is still what its source says.
+/// True if the document is still what its source says.
 bool is_unchanged(const FileParts& old, const AnnotationDocument& now) {
   const AnnotationDocument& head = old.head;
   if (head.author != now.author || head.date != now.date || head.format != now.format) return false;

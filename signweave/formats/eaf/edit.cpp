@@ -82,7 +82,7 @@ class TierEditor {
     for (std::size_t i = 0; i < tier.annotations.size(); ++i) {
       const std::optional<std::string> changed = changed_annotation(t, i);
       text += context_.separator(2);
-      text += changed ? std::string_view(*changed) : old_text(t, i);  // comes from another tier
+      text += changed ? std::string_view(*changed) : old_text(t, i);  // moved from another tier
     }
     return text + context_.separator(1) + "</TIER>";
   }
@@ -94,14 +94,14 @@ class TierEditor {
     return context_.xml.text().substr(extent.begin, extent.end - extent.begin);
   }
 
-  /// None where it is as it was.
+  /// The tier's new text; nullopt if it is unchanged.
   std::optional<std::string> changed_tier(std::size_t t) const {
     const Tier& tier = now_.tiers[t];
     const FileTier& was = old_.tiers[known_.tiers[t]];
     const Extent extent = context_.extents.of(was.element);
     Edits edits(context_.xml.text());
     std::vector<Attribute> attributes = attributes_of(tier);
-    for (Attribute& one : attributes) {  // an attribute that is missing and an empty one are the same to us
+    for (Attribute& one : attributes) {  // a missing attribute and an empty one are equivalent for us
       const pugi::xml_attribute now = was.element.attribute(one.name.c_str());
       if (one.value.value_or("").empty() && std::string_view(now.value()).empty()) {
         one.value = now ? std::optional<std::string>("") : std::nullopt;
@@ -116,7 +116,7 @@ class TierEditor {
       const bool here = is_in(was, known_.annotations[t][i]);
       if (here) item.old = holder(*known_.annotations[t][i]);
       item.text = changed_annotation(t, i);
-      if (!here && !item.text) item.text = old_text(t, i);  // comes from another tier
+      if (!here && !item.text) item.text = old_text(t, i);  // moved from another tier
       changed = changed || item.text;
     }
     if (changed) {
@@ -134,7 +134,7 @@ class TierEditor {
     return one != nullptr && !std::less<>()(one, first) && std::less<>()(one, first + tier.annotations.size());
   }
 
-  /// The ANNOTATION element; none where it is as it was.
+  /// The new text of the ANNOTATION element; nullopt if it is unchanged.
   std::optional<std::string> changed_annotation(std::size_t t, std::size_t i) const {
     const Annotation& one = now_.tiers[t].annotations[i];
     const FileAnnotation* was = known_.annotations[t][i];
@@ -156,7 +156,8 @@ class TierEditor {
       return annotation_element(one, references, context_.line);
     }
     std::vector<Attribute> attributes = attributes_of(one, references);
-    if (!with_slots && same_chain(t, i)) attributes.pop_back();  // as the file has it, which may be without
+    if (!with_slots && same_chain(t, i))
+      attributes.pop_back();  // as in the file, which may have no PREVIOUS_ANNOTATION
     const Extent extent = context_.extents.of(was->element);
     Edits edits(context_.xml.text());
     edit_attributes(edits, extent, was->element, attributes);
@@ -181,7 +182,7 @@ class TierEditor {
     return i > 0 && all[i - 1].parent == all[i].parent ? all[i - 1].id : std::string();
   }
 
-  /// True where an annotation follows the same one under the same parent as before.
+  /// True if an annotation follows the same one under the same parent as before.
   bool same_chain(std::size_t t, std::size_t i) const {
     if (context_.checked.stereotypes[t] != Stereotype::symbolic_subdivision) return true;
     const FileAnnotation* was = known_.annotations[t][i];

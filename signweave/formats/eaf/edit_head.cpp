@@ -9,8 +9,8 @@
 namespace signweave::eaf {
 namespace {
 
-/// Pairs what is with what was, each once: the same first, then by each of the tests. [now], an index into `was` or
-/// kNone.
+/// Matches each element of `now` with at most one of `was`: first the equal ones, then by each of the tests in turn.
+/// Returns [now], an index into `was` or kNone.
 template <typename T>
 std::vector<std::size_t> partners(const std::vector<T>& was, const std::vector<T>& now,
                                   const std::vector<bool (*)(const T&, const T&)>& tests) {

@@ -6,15 +6,15 @@
 namespace signweave::eaf {
 
 Known recognise(const FileParts& old, const CheckedDocument& checked) {
-  struct Place {
+  struct Origin {
     std::size_t tier;
     const FileAnnotation* annotation;
   };
   std::unordered_map<std::string_view, std::size_t> tiers;
-  std::unordered_map<std::string_view, Place> annotations;
+  std::unordered_map<std::string_view, Origin> annotations;
   for (std::size_t t = 0; t < old.tiers.size(); ++t) {
     tiers.emplace(old.tiers[t].tier.id, t);
-    for (const FileAnnotation& one : old.tiers[t].annotations) annotations.emplace(one.annotation.id, Place{t, &one});
+    for (const FileAnnotation& one : old.tiers[t].annotations) annotations.emplace(one.annotation.id, Origin{t, &one});
   }
   Known known;
   std::set<std::size_t> taken;

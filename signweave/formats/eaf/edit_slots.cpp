@@ -79,7 +79,7 @@ class SlotEditor {
     }
   }
 
-  /// [old slot] whether an annotation that was left out has it: it stays, with its time.
+  /// [old slot] whether an annotation that was left out uses it: it stays, with its time.
   std::vector<bool> held_slots() const {
     std::vector<bool> held(old_.slots.size(), false);
     for (const FileTier& tier : old_.tiers) {
@@ -92,14 +92,14 @@ class SlotEditor {
     return held;
   }
 
-  /// The time that an annotation wants for one of its slots; none where any will do.
+  /// The time that an annotation requires for one of its slots; nullopt if any will do.
   std::optional<std::int64_t> wanted(const User& user, std::size_t slot) const {
     const Annotation& one = at(user.tier, user.place);
     const FileAnnotation* was = known_.annotations[user.tier][user.place];
     const bool begin = user.side == Side::begin;
     const std::int64_t time = (begin ? one.span.begin : one.span.end).count();
     if (was == nullptr || !was->has_slots() || one.aligned) return time;
-    // Without times of its own it follows its parent and neighbours, unless it was moved itself.
+    // An annotation without times of its own follows its parent and neighbours, unless it was itself moved.
     if (!result_.slots[slot].time) return std::nullopt;
     const TimeSpan before = was->annotation.span;
     if ((begin ? before.begin : before.end).count() == time) return std::nullopt;
@@ -137,11 +137,11 @@ class SlotEditor {
     }
   }
 
-  /// Where a slot stands: its time (or that of the aligned slot before it), then its place among equals.
+  /// The sort position of a slot: its time (or that of the aligned slot before it), then its position among equals.
   struct Key {
     std::int64_t reached;
     std::size_t place;
-    std::vector<std::size_t> after;  ///< for an unaligned slot that goes with another: the how-manieth after it
+    std::vector<std::size_t> after;  ///< for an unaligned slot that moves with another: its offset after that one
     bool operator<(const Key& other) const {
       return std::tie(reached, place, after) < std::tie(other.reached, other.place, other.after);
     }
@@ -169,7 +169,7 @@ class SlotEditor {
     }
     name_new_slots();
     for (std::size_t i = 0; i < old_.slots.size(); ++i) {
-      if (old_.slots[i].rank != i) return;  // it was not sorted: what is new stays at the end
+      if (old_.slots[i].rank != i) return;  // it was not sorted: new slots stay at the end
     }
     const std::vector<Key> keys = sort_keys();
     std::sort(result_.order.begin(), result_.order.end(),
@@ -179,7 +179,7 @@ class SlotEditor {
   /// New slots, and old ones whose new time does not fit between their neighbours.
   std::vector<bool> slots_to_move() const {
     const std::size_t count = result_.slots.size();
-    std::vector<std::int64_t> next(count, kLatest);  // the first unchanged time after
+    std::vector<std::int64_t> next(count, kLatest);  // the next unchanged time after the slot
     for (std::size_t slot = old_.slots.size(); slot-- > 1;) {
       const std::optional<std::int64_t> time = old_.slots[slot].time;
       next[slot - 1] = time && time == result_.slots[slot].time ? *time : next[slot];

@@ -19,18 +19,18 @@ using testing::SizeIs;
 std::string replaced(std::string text, std::string_view from, std::string_view to) {
   const std::size_t at = text.find(from);
   EXPECT_NE(at, std::string::npos) << from;
-  EXPECT_EQ(text.find(from, at + 1), std::string::npos) << from << " is there twice";
+  EXPECT_EQ(text.find(from, at + 1), std::string::npos) << from << " occurs twice";
   return text.replace(at, from.size(), to);
 }
 
-/// What is written reads as what was meant.
+/// Writes a document and checks that it reads back unchanged.
 std::string written(const AnnotationDocument& document) {
   std::string text = write_text(document);
   EXPECT_EQ(without_source(read_text("written.eaf", text).document), without_source(document));
   return text;
 }
 
-TEST(EafEdit, WhatWasNotChangedIsWrittenByteForByte) {
+TEST(EafEdit, AnUnchangedDocumentIsWrittenByteForByte) {
   std::size_t files = 0;
   for (const auto& entry : std::filesystem::directory_iterator(testdata("eaf"))) {
     const std::string text = read_file(entry.path());
@@ -44,7 +44,7 @@ TEST(EafEdit, AChangedLabelChangesItsBytesOnly) {
   AnnotationDocument document = constraints();
   annotation_of(document, "a30").label = "voyelle <é> & co";
   annotation_of(document, "a2").label = "";
-  // CVE_REF, EXT_REF and all that is around them stay.
+  // CVE_REF, EXT_REF and everything around them stay.
   std::string expected =
       replaced(document.source, ">vowel</ANNOTATION_VALUE>", ">voyelle &lt;é&gt; &amp; co</ANNOTATION_VALUE>");
   expected = replaced(expected, ">oh no way<", "><");
@@ -66,7 +66,7 @@ TEST(EafEdit, ALabelWithoutItsElementGetsOne) {
   written(document);
 }
 
-TEST(EafEdit, ATimeThatNobodySharesChangesItsSlot) {
+TEST(EafEdit, ATimeThatIsNotSharedChangesItsSlot) {
   AnnotationDocument document = constraints();
   annotation_of(document, "a16").span.end = 2950ms;
   EXPECT_EQ(written(document), replaced(document.source, "TIME_VALUE=\"2900\"", "TIME_VALUE=\"2950\""));
@@ -143,7 +143,7 @@ TEST(EafEdit, AnAddedAnnotationGetsAnIdAndSharesItsNeighboursSlots) {
   EXPECT_EQ(without_source(read_text("x", text).document), without_source(document));
 }
 
-TEST(EafEdit, AChainOfSubdivisionsIsMendedAroundAChange) {
+TEST(EafEdit, AChainOfSubdivisionsIsRepairedAroundAChange) {
   AnnotationDocument document = constraints();
   Tier& letters = tier_of(document, "letters");
   letters.annotations.erase(letters.annotations.begin());  // nothing refers to it
@@ -176,7 +176,7 @@ TEST(EafEdit, AnnotationsOutOfTimeOrderStayWhereTheyAreInTheFile) {
   EXPECT_EQ(written(changed), replaced(text, ">first<", ">new<"));
 }
 
-TEST(EafEdit, AChangedTierKeepsWhatWeDoNotModel) {
+TEST(EafEdit, AChangedTierKeepsUnmodelledParts) {
   AnnotationDocument document = constraints();
   Tier& text_tier = tier_of(document, "text");
   text_tier.participant = "Ève \"P1\"";
@@ -187,13 +187,13 @@ TEST(EafEdit, AChangedTierKeepsWhatWeDoNotModel) {
   EXPECT_EQ(written(document), expected);
 }
 
-TEST(EafEdit, ARenamedTierIsKnownByItsAnnotations) {
+TEST(EafEdit, ARenamedTierIsMatchedByItsAnnotations) {
   AnnotationDocument document = constraints();
   tier_of(document, "tags").id = "étiquettes";
   EXPECT_EQ(written(document), replaced(document.source, "TIER_ID=\"tags\"", "TIER_ID=\"étiquettes\""));
 }
 
-TEST(EafEdit, TiersMayBeAddedRemovedAndPutInAnotherOrder) {
+TEST(EafEdit, TiersMayBeAddedRemovedAndReordered) {
   AnnotationDocument document = constraints();
   std::erase_if(document.tiers, [](const Tier& tier) { return tier.id == "tags" || tier.id == "inner"; });
   std::rotate(document.tiers.begin(), document.tiers.begin() + 2, document.tiers.end());  // text, letters, words
@@ -222,7 +222,7 @@ TEST(EafEdit, ANewTypeBringsItsConstraint) {
   EXPECT_THAT(text, HasSubstr("STEREOTYPE=\"Time_Subdivision\"/>\n</ANNOTATION_DOCUMENT>"));
 }
 
-TEST(EafEdit, ChangedTypesKeepWhatWeDoNotModel) {
+TEST(EafEdit, ChangedTypesKeepUnmodelledParts) {
   AnnotationDocument document = constraints();
   document.types.back().controlled_vocabulary = "cv";
   document.types[2].stereotype = Stereotype::time_subdivision;

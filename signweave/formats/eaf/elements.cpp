@@ -34,7 +34,7 @@ std::string_view description_of(Stereotype stereotype) {
   }
 }
 
-/// The number n of an id "an"; 0 where it is none.
+/// The number n of an id "an"; 0 for any other id.
 std::uint64_t number_of(std::string_view id) {
   std::uint64_t number = 0;
   if (id.size() < 2 || id.size() > 16 || id.front() != 'a') return 0;
@@ -57,7 +57,7 @@ std::uint64_t last_number(const AnnotationDocument& document) {
   throw Error(ErrorCode::bad_input, fmt::format("tier '{}': {}", printable(tier.id), what));
 }
 
-/// Without recursion: a chain of tiers may be long.
+/// Without recursion, because a chain of tiers may be long.
 std::vector<std::size_t> parents_first(const CheckedDocument& checked) {
   const std::size_t count = checked.parents.size();
   std::vector<std::size_t> order;
@@ -84,7 +84,7 @@ void check_annotation(const Tier& tier, const Annotation& one, Stereotype stereo
   const TimeSpan span = one.span;
   const Milliseconds latest(kLatest);
   if (span.begin > span.end) {
-    refuse(tier, fmt::format("annotation '{}' ends before it begins; exchange its times", printable(one.id)));
+    refuse(tier, fmt::format("annotation '{}' ends before it begins; swap its times", printable(one.id)));
   }
   if (span.begin < Milliseconds(0) || span.end > latest) {
     refuse(tier, fmt::format("annotation '{}' lies outside 0 to {} ms; move it", printable(one.id), kLatest));
@@ -197,15 +197,15 @@ CheckedDocument check(AnnotationDocument document, const FileParts* old) {
   for (const TierType& type : document.types) {
     if (type.id.empty() || !types.emplace(type.id, type.stereotype).second) {
       throw Error(ErrorCode::bad_input, fmt::format("tier type '{}': {}; give it an id of its own", printable(type.id),
-                                                    type.id.empty() ? "has no id" : "is there twice"));
+                                                    type.id.empty() ? "has no id" : "occurs twice"));
     }
   }
   for (std::size_t i = 0; i < document.tiers.size(); ++i) {
     const Tier& tier = document.tiers[i];
     if (tier.id.empty()) refuse(tier, "has no name; give it one");
-    if (!tiers.emplace(tier.id, i).second) refuse(tier, "is there twice; give one of them another name");
+    if (!tiers.emplace(tier.id, i).second) refuse(tier, "occurs twice; give one of them another name");
   }
-  // Tiers without parent or type, and annotations with slots, that the file has already.
+  // Tiers without parent or type, and annotations with slots, that are already in the file.
   std::unordered_set<std::string_view> odd;
   std::unordered_set<std::string_view> odd_annotations;
   std::unordered_set<std::string_view> left_out;  // in the file, not in the document
@@ -221,7 +221,7 @@ CheckedDocument check(AnnotationDocument document, const FileParts* old) {
   for (const Tier& tier : document.tiers) {
     const auto parent = tiers.find(tier.parent);
     if (!tier.parent.empty() && parent == tiers.end()) {
-      refuse(tier, fmt::format("has the parent '{}', which is no tier; name one that is", printable(tier.parent)));
+      refuse(tier, fmt::format("has the parent '{}', which is not a tier; name one that is", printable(tier.parent)));
     }
     checked.parents.push_back(tier.parent.empty() ? kNone : parent->second);
     const auto type = types.find(tier.type);
@@ -255,7 +255,7 @@ CheckedDocument check(AnnotationDocument document, const FileParts* old) {
                                  printable(one.id)));
       }
       if (!places.emplace(one.id, i).second) {
-        refuse(tier, fmt::format("annotation '{}' is there twice; give one of them another id", printable(one.id)));
+        refuse(tier, fmt::format("annotation '{}' occurs twice; give one of them another id", printable(one.id)));
       }
       tier_of.emplace(one.id, t);
     }

@@ -12,7 +12,7 @@
 namespace signweave::eaf {
 namespace {
 
-/// Which slots the annotations of a document without source use.
+/// Determines the slots that the annotations of a document without source use.
 class SlotMaker {
  public:
   struct Ends {
@@ -71,7 +71,7 @@ class SlotMaker {
   };
   struct MadeSlot {
     std::optional<std::int64_t> time;
-    std::int64_t shown = 0;   ///< its time, or where ELAN shows it
+    std::int64_t shown = 0;   ///< its time, or the time at which ELAN shows it
     bool needs_time = false;  ///< an aligned annotation uses it
     bool listed = false;
   };
@@ -90,13 +90,13 @@ class SlotMaker {
     order_.push_back(slot);
   }
 
-  /// Lists the slots under a root so that those of children stand between those of their parent. An own stack: tiers
-  /// may be nested deeply.
+  /// Lists the slots under a root so that those of children are between those of their parent. Uses an explicit stack,
+  /// because tiers may be nested deeply.
   void walk(Node root) {
     struct Step {
       Node node;
       std::size_t next = 0;            ///< child to visit next
-      std::size_t parent_end = kNone;  ///< listed by the parent, when all its children are done
+      std::size_t parent_end = kNone;  ///< listed by the parent after all its children
     };
     std::vector<Step> stack{{root}};
     enter(root);
@@ -107,7 +107,7 @@ class SlotMaker {
       if (step.next < below.size()) {
         const Node child = below[step.next++];
         enter(child);
-        stack.push_back({child, 0, end});  // step is invalid from here
+        stack.push_back({child, 0, end});  // `step` is invalid from here on
         continue;
       }
       if (end != step.parent_end) list(end);
@@ -115,7 +115,7 @@ class SlotMaker {
     }
   }
 
-  /// Lists an annotation's begin and gives its children their slots.
+  /// Lists an annotation's begin and assigns slots to its children.
   void enter(Node node) {
     const Ends own = ends_[node.tier][node.place];
     list(own.begin);
@@ -135,7 +135,7 @@ class SlotMaker {
 
   struct Bound {
     std::size_t slot;
-    std::int64_t time;  ///< where ELAN shows it
+    std::int64_t time;  ///< at which ELAN shows it
     bool shared;        ///< by two neighbours
   };
 
@@ -159,8 +159,8 @@ class SlotMaker {
     subdivisions_.push_back(std::move(bounds));
   }
 
-  /// Takes the time from every slot that ELAN would show at that very time without it, and that no annotation with
-  /// times of its own uses.
+  /// Removes the time of every slot that ELAN would show at exactly that time without it, and that is not used by an
+  /// annotation with times of its own.
   void unalign(const std::vector<Bound>& bounds) {
     const auto even = [&](std::size_t from, std::size_t to) {
       const std::int64_t step = (bounds[to].time - bounds[from].time) / static_cast<std::int64_t>(to - from);
@@ -170,7 +170,7 @@ class SlotMaker {
       return true;
     };
     for (std::size_t from = 0; from + 1 < bounds.size();) {
-      constexpr std::size_t kLongestRun = 1000;  // a longer one would take long to search
+      constexpr std::size_t kLongestRun = 1000;  // a longer run would take long to search
       std::size_t to = from + 1;
       while (to + 1 < bounds.size() && bounds[to].shared && !slots_[bounds[to].slot].needs_time &&
              to - from < kLongestRun)
@@ -193,7 +193,7 @@ class SlotMaker {
   std::vector<std::vector<std::vector<Node>>> children_;
   std::vector<Node> roots_;
   std::vector<MadeSlot> slots_;
-  std::vector<std::vector<Bound>> subdivisions_;  ///< the bounds of the pieces of one parent, in order
+  std::vector<std::vector<Bound>> subdivisions_;  ///< the bounds of the parts of one parent, in order
   std::vector<std::size_t> order_;
   std::vector<std::size_t> numbers_;
 };
@@ -214,7 +214,7 @@ class Lines {
 void add_header(const CheckedDocument& checked, Lines& lines) {
   const AnnotationDocument& document = checked.document;
   lines.add(1, "<HEADER MEDIA_FILE=\"\" TIME_UNITS=\"milliseconds\">");
-  for (const bool media : {true, false}) {  // the schema wants media first
+  for (const bool media : {true, false}) {  // the schema requires media first
     for (const LinkedFile& file : document.linked_files) {
       if (file.media == media) lines.add(2, linked_file_element(file));
     }
@@ -258,7 +258,7 @@ std::string generate(const CheckedDocument& checked) {
   const SlotMaker slots(checked);
   Lines lines;
   lines.add(0, R"(<?xml version="1.0" encoding="UTF-8"?>)");
-  // The schema wants a date, and the same document must give the same bytes.
+  // The schema requires a date, and the same document must give the same bytes.
   const std::string date = document.date.empty() ? "1970-01-01T00:00:00+00:00" : document.date;
   lines.add(0, open_tag("ANNOTATION_DOCUMENT",
                         {{"AUTHOR", document.author},

@@ -28,7 +28,7 @@ AnnotationDocument one_sign() {
   return document;
 }
 
-TEST(EafGenerate, AMadeDocumentIsAWholeFile) {
+TEST(EafGenerate, AGeneratedDocumentIsACompleteFile) {
   EXPECT_EQ(write_text(one_sign()), R"(<?xml version="1.0" encoding="UTF-8"?>
 <ANNOTATION_DOCUMENT AUTHOR="signweave" DATE="2026-01-02T03:04:05Z" FORMAT="3.0" VERSION="3.0" xmlns:xsi="http://www.w3.org/2001/XMLSchema-instance" xsi:noNamespaceSchemaLocation="http://www.mpi.nl/tools/elan/EAFv3.0.xsd">
     <HEADER MEDIA_FILE="" TIME_UNITS="milliseconds">
@@ -71,7 +71,7 @@ TEST(EafGenerate, AMadeDocumentIsAWholeFile) {
 )");
 }
 
-TEST(EafGenerate, EveryGoodFileComesBackFromItsModelAlone) {
+TEST(EafGenerate, EveryGoodFileIsReproducedFromItsModelAlone) {
   for (const auto& entry : std::filesystem::directory_iterator(testdata("eaf"))) {
     AnnotationDocument document = without_source(read(entry.path()).document);
     for (Tier& tier : document.tiers) {
@@ -127,7 +127,7 @@ TEST(EafGenerate, UnalignedAnnotationsStayUnalignedWhereElanShowsThemThere) {
   EXPECT_TRUE(again.find_tier("Phase")->annotations[0].aligned);
 }
 
-TEST(EafGenerate, LabelsOfAnyKindComeBack) {
+TEST(EafGenerate, AnyLabelSurvivesARoundTrip) {
   AnnotationDocument document = one_sign();
   document.tiers[0].annotations[0].label = " <&>\"'\r\n\t]]> \u200B é e\u0301 \U0001F44B ";
   document.tiers[0].id = "a\"b'<&>\n\t";

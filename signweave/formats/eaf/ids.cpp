@@ -9,8 +9,8 @@ bool is_digit(char c) noexcept {
 
 }  // namespace
 
-/// The number of an id that is the prefix and a number written in the usual way ("ts07" is another id than "ts7");
-/// kMissing for any other.
+/// The number of an id that consists of the prefix and a number in canonical form ("ts07" is a different id from
+/// "ts7"); kMissing for any other.
 std::size_t Ids::number_of(std::string_view id) const noexcept {
   if (prefix_.empty() || !id.starts_with(prefix_)) return kMissing;
   const std::string_view digits = id.substr(prefix_.size());
@@ -30,7 +30,7 @@ bool Ids::add(std::string_view id, std::size_t place) {
     if (letters < id.size()) prefix_ = id.substr(0, letters);
   }
   const std::size_t number = number_of(id);
-  // A number far past the count of ids would cost memory that the file does not pay for.
+  // A number far beyond the count of ids would use memory out of proportion to the file.
   if (number == kMissing || number > 8 * expected_ + 1024) return others_.emplace(id, place).second;
   if (number >= numbered_.size()) numbered_.resize(number + number / 2 + 16, kMissing);
   if (numbered_[number] != kMissing) return false;

@@ -24,7 +24,7 @@ TEST(EafIds, IdsThatLookAlikeAreDifferent) {
     EXPECT_EQ(ids.find(other), Ids::kMissing) << other;
 }
 
-TEST(EafIds, AnyOrderAndAnyNamesGiveWhatAMapGives) {
+TEST(EafIds, AnyOrderAndNamesGiveTheSameAsAMap) {
   std::mt19937 random(3);
   for (const char* prefix : {"ts", "", "a-", "7b"}) {
     std::vector<std::string> names(2'000);

@@ -21,7 +21,7 @@ std::vector<std::string> notices_of(const File& file) {
   return texts;
 }
 
-/// Two signs, then one that ends before it begins, then one more.
+/// Two signs, then one that ends before it begins, then another.
 const std::string kReversed =
     document({0, 100, 200, 300, 400},
              tier("Gloss", "root", "", alignable("a1", 1, 2) + alignable("a2", 4, 3) + alignable("a3", 4, 5)) +
@@ -29,14 +29,14 @@ const std::string kReversed =
                  tier("Note", "tag", "Gloss", reference("c1", "a1") + reference("c2", "a2")) +
                  tier("Sub", "divide", "Note", reference("d1", "c2") + reference("d2", "c1")));
 
-TEST(EafLeftOut, WhatEndsBeforeItBeginsAndWhatRefersToIt) {
+TEST(EafLeftOut, AReversedAnnotationAndThoseThatReferToIt) {
   const File file = read_text("x.eaf", kReversed);
   EXPECT_EQ(times(file.document, "Gloss"), "a1 0-100, a3 300-400");
   EXPECT_EQ(parents(file.document, "Phase"), "b1<a3");
   EXPECT_EQ(times(file.document, "Note"), "c1 0-100");
   EXPECT_EQ(times(file.document, "Sub"), "d2 0-100");
   EXPECT_THAT(notices_of(file),
-              ElementsAre("x.eaf:11: annotation 'a2' begins at 300 ms, after its end at 200 ms: left out; exchange its "
+              ElementsAre("x.eaf:11: annotation 'a2' begins at 300 ms, after its end at 200 ms: left out; swap its "
                           "slots or correct a TIME_VALUE",
                           "x.eaf:19: annotation 'c2' refers to annotation 'a2', which is left out: left out; correct "
                           "that one",
@@ -46,14 +46,13 @@ TEST(EafLeftOut, WhatEndsBeforeItBeginsAndWhatRefersToIt) {
   EXPECT_EQ(write_text(file.document), kReversed);
 }
 
-TEST(EafLeftOut, IsRefusedWhereThatIsAskedFor) {
+TEST(EafLeftOut, IsRefusedOnRequest) {
   try {
     read_text("x.eaf", kReversed, Unsound::refused);
     FAIL() << "not refused";
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ErrorCode::bad_input);
-    EXPECT_THAT(error.what(),
-                HasSubstr("x.eaf:11: annotation 'a2' begins at 300 ms, after its end at 200 ms; exchange"));
+    EXPECT_THAT(error.what(), HasSubstr("x.eaf:11: annotation 'a2' begins at 300 ms, after its end at 200 ms; swap"));
   }
 }
 
@@ -88,7 +87,8 @@ TEST(EafLeftOut, StaysInTheFileWhileTheRestIsChanged) {
   File file = read_text("x.eaf", kReversed);
   Tier& gloss = tier_of(file.document, "Gloss");
   gloss.annotations[0].label = "ANOTHER";
-  gloss.annotations.erase(gloss.annotations.begin() + 1);  // a3, which shares a slot with what was left out
+  gloss.annotations.erase(gloss.annotations.begin() +
+                          1);  // a3, which shares a slot with the annotation that was left out
   tier_of(file.document, "Phase").annotations.clear();
   Annotation added{.id = "a9", .label = "NEW", .span = {Milliseconds(500), Milliseconds(600)}};
   gloss.annotations.push_back(added);
@@ -96,14 +96,14 @@ TEST(EafLeftOut, StaysInTheFileWhileTheRestIsChanged) {
   EXPECT_THAT(written, HasSubstr(R"(ANNOTATION_ID="a2" TIME_SLOT_REF1="ts4" TIME_SLOT_REF2="ts3")"));
   EXPECT_THAT(written, HasSubstr(R"(<TIME_SLOT TIME_SLOT_ID="ts4" TIME_VALUE="300"/>)"));
   EXPECT_THAT(written, HasSubstr(R"(<TIME_SLOT TIME_SLOT_ID="ts3" TIME_VALUE="200"/>)"));
-  EXPECT_THAT(written, testing::Not(HasSubstr("\"ts5\""))) << "nobody uses it any more";
+  EXPECT_THAT(written, testing::Not(HasSubstr("\"ts5\""))) << "no annotation uses it any more";
   const File again = read_text("x.eaf", written);
   EXPECT_EQ(again.document.find_tier("Gloss")->annotations.size(), 2U);
   EXPECT_EQ(again.document.find_tier("Gloss")->annotations[1].label, "NEW");
   EXPECT_THAT(notices_of(again), testing::Contains(HasSubstr("'a2' begins at 300 ms, after its end at 200 ms: left")));
 }
 
-TEST(EafLeftOut, ItsTimesStayWhereOneWithTheSameSlotIsMoved) {
+TEST(EafLeftOut, ItsTimesStayIfAnotherWithTheSameSlotIsMoved) {
   File file = read_text("x.eaf", kReversed);
   for (const char* tier : {"Gloss", "Phase"}) {
     tier_of(file.document, tier).annotations.back().span = {Milliseconds(320), Milliseconds(400)};

@@ -33,7 +33,7 @@ class Parser {
   FileParts run() {
     const pugi::xml_node root = xml_.root();
     if (std::string_view(root.name()) != "ANNOTATION_DOCUMENT") {
-      xml_.fail(root, fmt::format("this is no EAF file: its root element is <{}>; give a file as ELAN saves it",
+      xml_.fail(root, fmt::format("this is not an EAF file: its root element is <{}>; give a file as ELAN saves it",
                                   printable(root.name())));
     }
     read_root(root);
@@ -94,7 +94,7 @@ class Parser {
       if (!origin.empty()) {
         const std::optional<std::int64_t> time = whole_number(origin);
         if (!time || *time < -kLatest || *time > kLatest) {
-          xml_.fail(child, fmt::format("TIME_ORIGIN '{}' is no number of milliseconds; write a whole number",
+          xml_.fail(child, fmt::format("TIME_ORIGIN '{}' is not a number of milliseconds; write a whole number",
                                        printable(origin)));
         }
         file.time_origin = Milliseconds(*time);
@@ -104,7 +104,7 @@ class Parser {
   }
 
   void read_slots(pugi::xml_node order) {
-    const std::size_t most = xml_.text().size() / 32;  // elements of either kind are longer
+    const std::size_t most = xml_.text().size() / 32;  // elements of either kind are longer than this
     slots_.reserve(most);
     annotations_.reserve(most);
     for (pugi::xml_node child = order.child("TIME_SLOT"); child; child = child.next_sibling("TIME_SLOT")) {
@@ -114,7 +114,7 @@ class Parser {
       if (const pugi::xml_attribute value = child.attribute("TIME_VALUE")) {
         slot.time = whole_number(value.value());
         if (!slot.time || *slot.time < 0 || *slot.time > kLatest) {
-          xml_.fail(child, fmt::format("TIME_VALUE '{}' is no time; write whole milliseconds from 0 to {}",
+          xml_.fail(child, fmt::format("TIME_VALUE '{}' is not a time; write whole milliseconds from 0 to {}",
                                        printable(value.value()), kLatest));
         }
       }
@@ -171,8 +171,8 @@ class Parser {
         std::vector<std::string> known;
         for (const FileTier& other : parts_.tiers) known.push_back(other.tier.id);
         xml_.fail(tier.element,
-                  fmt::format("tier '{}' has the parent '{}', which is no tier of this file; name one that is{}", name,
-                              printable(tier.tier.parent), did_you_mean(tier.tier.parent, known)));
+                  fmt::format("tier '{}' has the parent '{}', which is not a tier of this file; name one that is{}",
+                              name, printable(tier.tier.parent), did_you_mean(tier.tier.parent, known)));
       }
       tier.parent = parent->second;
     }
@@ -194,7 +194,7 @@ class Parser {
     }
   }
 
-  /// Without recursion: a chain of tiers may be as long as the file.
+  /// Without recursion, because a chain of tiers may be as long as the file.
   std::vector<std::size_t> tiers_parents_first() {
     enum class State : char { open, on_path, done };
     std::vector<State> states(parts_.tiers.size(), State::open);
@@ -221,7 +221,7 @@ class Parser {
   }
 
   void read_annotations(FileTier& tier) {
-    // pugixml's iterators cost several calls into the library at each step, and these loops go over the whole file.
+    // pugixml's iterators make several library calls per step, and these loops visit the whole file.
     std::size_t most = 0;
     for (pugi::xml_node child = tier.element.first_child(); child; child = child.next_sibling()) ++most;
     tier.annotations.reserve(most);
@@ -288,12 +288,12 @@ class Parser {
     tier.annotations = std::move(sound);
   }
 
-  /// False where the annotation was left out.
+  /// Returns false if the annotation was left out.
   bool refers_soundly(FileTier& tier, FileAnnotation& one) {
-    const auto refuse = [&](std::string_view id, std::string_view fault, std::string_view mend) {
+    const auto refuse = [&](std::string_view id, std::string_view fault, std::string_view repair) {
       const std::string what = fmt::format("annotation '{}' refers to annotation '{}', {}",
                                            printable(one.annotation.id), printable(id), fault);
-      leave_out(tier, std::move(one), what, mend);
+      leave_out(tier, std::move(one), what, repair);
       return false;
     };
     const std::string parent = one.annotation.parent;
@@ -316,8 +316,8 @@ class Parser {
     return true;
   }
 
-  void leave_out(FileTier& tier, FileAnnotation one, std::string_view what, std::string_view mend) {
-    eaf::leave_out(xml_, unsound_, parts_, tier, std::move(one), what, mend);
+  void leave_out(FileTier& tier, FileAnnotation one, std::string_view what, std::string_view repair) {
+    eaf::leave_out(xml_, unsound_, parts_, tier, std::move(one), what, repair);
   }
 
   const Xml& xml_;
@@ -336,9 +336,9 @@ FileParts parse(const Xml& xml, Unsound unsound) {
 }
 
 void leave_out(const Xml& xml, Unsound unsound, FileParts& parts, FileTier& tier, FileAnnotation annotation,
-               std::string_view what, std::string_view mend) {
-  if (unsound == Unsound::refused) xml.fail(annotation.element, fmt::format("{}; {}", what, mend));
-  parts.notices.push_back(xml.notice(annotation.element, fmt::format("{}: left out; {}", what, mend)));
+               std::string_view what, std::string_view repair) {
+  if (unsound == Unsound::refused) xml.fail(annotation.element, fmt::format("{}; {}", what, repair));
+  parts.notices.push_back(xml.notice(annotation.element, fmt::format("{}: left out; {}", what, repair)));
   tier.left_out.push_back(std::move(annotation));
 }
 

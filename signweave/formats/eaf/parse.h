@@ -17,18 +17,18 @@ namespace signweave::eaf {
 
 constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
 
-/// No time in a file may be past this many milliseconds (some 31 years).
+/// The latest time allowed in a file, in milliseconds (some 31 years).
 constexpr std::int64_t kLatest = 1'000'000'000'000;
 
 /// A boundary that annotations share.
 struct Slot {
   std::string_view id;
   std::optional<std::int64_t> time;  ///< milliseconds; none: unaligned
-  std::size_t rank = 0;              ///< its place in ELAN's order of slots, see eaf_times.h
+  std::size_t rank = 0;              ///< its position in ELAN's order of slots, see times.h
   pugi::xml_node element;
 };
 
-/// An annotation with what ties it to the file.
+/// An annotation with its links to the file.
 struct FileAnnotation {
   Annotation annotation;
   pugi::xml_node element;     ///< the ALIGNABLE_ANNOTATION or REF_ANNOTATION inside its ANNOTATION
@@ -45,10 +45,10 @@ struct FileTier {
   std::size_t parent = kNone;  ///< index of the parent tier
   Stereotype stereotype = Stereotype::none;
   std::vector<FileAnnotation> annotations;  ///< in time order
-  std::vector<FileAnnotation> left_out;     ///< unsound ones, of which nothing but id and element counts
+  std::vector<FileAnnotation> left_out;     ///< unsound ones, of which only id and element are used
 };
 
-/// An EAF file taken apart. Borrows from its Xml, which must outlive it.
+/// A parsed EAF file. Borrows from its Xml, which must outlive it.
 struct FileParts {
   AnnotationDocument head;  ///< everything but tiers and source
   std::vector<Slot> slots;  ///< in file order
@@ -56,12 +56,12 @@ struct FileParts {
   std::vector<Notice> notices;
 };
 
-/// Takes a file apart and gives every annotation its span and parent. Throws Error{bad_input, "FILE:LINE: …"}.
+/// Parses a file and gives every annotation its span and parent. Throws Error{bad_input, "FILE:LINE: …"}.
 FileParts parse(const Xml& xml, Unsound unsound);
 
-/// Leaves an annotation of a tier out with a notice, or refuses the file: "WHAT; MEND".
+/// Leaves an annotation of a tier out with a notice, or refuses the file: "WHAT; REPAIR".
 void leave_out(const Xml& xml, Unsound unsound, FileParts& parts, FileTier& tier, FileAnnotation annotation,
-               std::string_view what, std::string_view mend);
+               std::string_view what, std::string_view repair);
 
 /// EAF's names of the stereotypes: "Time_Subdivision", …; empty for none.
 std::string_view name_of(Stereotype stereotype) noexcept;

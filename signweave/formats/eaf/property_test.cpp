@@ -9,7 +9,7 @@
 #include "signweave/formats/eaf/elements.h"
 #include "signweave/formats/eaf/test_support.h"
 
-/// Whatever document, whatever changes: what is written reads as what was meant, and nothing else changes.
+/// For any document and any changes: what is written reads as intended, and nothing else changes.
 namespace signweave::eaf {
 namespace {
 
@@ -28,7 +28,7 @@ std::string any_label() {
                                         "e\u0301", "👋🏽", "شكرا", "&#38;", "<!-- -->");
 }
 
-/// Builds a document whose every span and mark is what its file will say.
+/// Builds a document whose every span and mark is what its file will contain.
 class Builder {
  public:
   AnnotationDocument build() {
@@ -54,7 +54,7 @@ class Builder {
   }
 
  private:
-  /// Which bounds have times, beside the annotation itself.
+  /// Which bounds have times, in addition to the annotation itself.
   struct Bounds {
     bool begin = true;
     bool end = true;
@@ -94,7 +94,7 @@ class Builder {
     bounds_.back().push_back(bounds);
   }
 
-  /// Some annotations with times of their own, with and without gaps, some of no length.
+  /// Adds annotations with times of their own, with and without gaps, some of zero length.
   void fill(TimeSpan whole, const std::string& parent, bool no_length_too) {
     Milliseconds at = whole.begin;
     for (int i = whole_number(0, 12); i > 0; --i) {
@@ -239,7 +239,7 @@ class Changer {
     const Annotation* one = any_annotation(tier);
     if (one == nullptr) return;
     std::set<std::string> ids{one->id};
-    if (!one->aligned) {  // the times of its siblings hang on it
+    if (!one->aligned) {  // the times of its siblings depend on it
       for (const Annotation& other : tier->annotations) {
         if (other.parent == one->parent) ids.insert(other.id);
       }
@@ -255,7 +255,7 @@ class Changer {
     touched_.insert(tier->id);
   }
 
-  /// A shorter span for an annotation that nothing hangs on.
+  /// Shortens the span of an annotation on which no other depends.
   void move_annotation() {
     Tier* tier = any_tier();
     Annotation* one = any_annotation(tier);
@@ -333,7 +333,7 @@ class Changer {
   int ids_ = 0;
 };
 
-/// A tier's bytes, known by its place: names may hold anything.
+/// The bytes of each tier, found by its position, because names may contain anything.
 std::map<std::string, std::string> tiers_by_name(const std::string& text, const AnnotationDocument& document) {
   std::map<std::string, std::string> result;
   std::size_t at = 0;
@@ -347,7 +347,7 @@ std::map<std::string, std::string> tiers_by_name(const std::string& text, const 
   return result;
 }
 
-/// Things that we do not model, at places where ELAN puts such.
+/// Adds elements and attributes that we do not model, where ELAN writes them.
 std::string with_foreign_parts(std::string text) {
   const auto put = [&](std::string_view before, std::string_view what) {
     for (std::size_t at = 0; (at = text.find(before, at)) != std::string::npos; at += before.size() + what.size()) {

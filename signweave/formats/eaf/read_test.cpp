@@ -24,7 +24,7 @@ std::vector<std::string> lines(const std::vector<Notice>& notices) {
   return result;
 }
 
-TEST(EafRead, ThePairOfThePaperInFrench) {
+TEST(EafRead, ThePapersExampleInFrench) {
   const File file = read_text("french.eaf", testfile("french.eaf"));
   EXPECT_THAT(lines(file.notices), IsEmpty());
   const AnnotationDocument& document = file.document;
@@ -71,7 +71,7 @@ TEST(EafRead, EveryEncodingGivesTheSameDocument) {
   }
 }
 
-TEST(EafRead, LettersBeyondSixteenBitsComeThroughUtf16) {
+TEST(EafRead, CharactersBeyondSixteenBitsAreReadFromUtf16) {
   std::string wide = "\xFF\xFE";
   const std::string_view name = "<ANNOTATION_DOCUMENT FORMAT='3.0' AUTHOR='";
   for (const char c : name) wide += std::string{c, '\0'};

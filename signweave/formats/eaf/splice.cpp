@@ -9,13 +9,13 @@ namespace {
 
 constexpr std::string_view kBlank = " \t\r\n";
 
-/// Past the end of `what`, or the end of the text.
+/// The position after `what`, or the end of the text.
 std::size_t past(std::string_view text, std::string_view what, std::size_t from) {
   const std::size_t at = text.find(what, from);
   return at == std::string_view::npos ? text.size() : at + what.size();
 }
 
-/// Past the '>' that ends a tag; quoted text may hold one.
+/// The position after the '>' that ends a tag; quoted text may contain one.
 std::size_t past_tag(std::string_view text, std::size_t from) {
   for (std::size_t at = from; at < text.size(); ++at) {
     if (text[at] == '>') return at + 1;
@@ -24,7 +24,7 @@ std::size_t past_tag(std::string_view text, std::size_t from) {
   return text.size();
 }
 
-/// Past a DOCTYPE, whose internal subset holds declarations and comments in brackets.
+/// The position after a DOCTYPE, whose internal subset contains declarations and comments in brackets.
 std::size_t past_doctype(std::string_view text, std::size_t from) {
   std::size_t depth = 0;
   for (std::size_t at = from; at < text.size(); ++at) {
@@ -75,7 +75,7 @@ Extents::Extents(const Xml& xml) : xml_(xml) {
 }
 
 Extent Extents::of(pugi::xml_node element) const {
-  const auto begin = static_cast<std::size_t>(element.offset_debug()) - 1;  // past its '<'
+  const auto begin = static_cast<std::size_t>(element.offset_debug()) - 1;  // after its '<'
   const auto found = std::lower_bound(extents_.begin(), extents_.end(), begin,
                                       [](const Extent& extent, std::size_t at) { return extent.begin < at; });
   if (found == extents_.end() || found->begin != begin) {
@@ -93,7 +93,7 @@ std::string Edits::apply(std::size_t begin, std::size_t end) const {
   for (const Edit& edit : edits_) {
     if (edit.begin >= begin && edit.end <= end) order.push_back(&edit);
   }
-  // What is put at a place comes before what is taken away after it.
+  // An insertion at a position comes before a removal that begins there.
   std::stable_sort(order.begin(), order.end(), [](const Edit* a, const Edit* b) {
     return a->begin != b->begin ? a->begin < b->begin : (a->begin == a->end && b->begin != b->end);
   });
@@ -111,13 +111,13 @@ std::string Edits::apply(std::size_t begin, std::size_t end) const {
 void edit_attributes(Edits& edits, const Extent& extent, pugi::xml_node element, const std::vector<Attribute>& wanted) {
   const std::string_view text = edits.text();
   const std::size_t tag_end = extent.open_end - (extent.self_closing() ? 2 : 1);
-  struct Place {
+  struct FoundAttribute {
     std::string_view name;
     std::size_t begin;  ///< of the blanks before the name
     std::size_t value;
-    std::size_t end;  ///< past the quote
+    std::size_t end;  ///< after the quote
   };
-  std::vector<Place> places;
+  std::vector<FoundAttribute> found;
   std::size_t at = text.find_first_of(" \t\r\n/>", extent.begin + 1);
   std::size_t last = at;
   while (at < tag_end) {
@@ -127,16 +127,17 @@ void edit_attributes(Edits& edits, const Extent& extent, pugi::xml_node element,
     const std::size_t quote = text.find_first_of("\"'", name_end);
     if (quote >= tag_end) break;
     const std::size_t end = text.find(text[quote], quote + 1);
-    places.push_back({text.substr(name, name_end - name), at, quote + 1, end + 1});
+    found.push_back({text.substr(name, name_end - name), at, quote + 1, end + 1});
     at = last = end + 1;
   }
   for (const Attribute& one : wanted) {
     const pugi::xml_attribute now = element.attribute(one.name.c_str());
     if (one.value ? now && *one.value == now.value() : !now) continue;
-    const auto place = std::find_if(places.begin(), places.end(), [&](const Place& p) { return p.name == one.name; });
+    const auto place =
+        std::find_if(found.begin(), found.end(), [&](const FoundAttribute& p) { return p.name == one.name; });
     if (!one.value) {
-      if (place != places.end()) edits.replace(place->begin, place->end, {});
-    } else if (place == places.end()) {
+      if (place != found.end()) edits.replace(place->begin, place->end, {});
+    } else if (place == found.end()) {
       edits.insert(last, fmt::format(" {}=\"{}\"", one.name, escaped(*one.value, one.name)));
     } else {
       const char quote = text[place->value - 1];
@@ -156,13 +157,13 @@ void edit_content(Edits& edits, const Extent& extent, std::string_view name, std
 
 namespace {
 
-/// Where the blanks before a place begin.
+/// The beginning of the blanks before a position.
 std::size_t blanks_before(std::string_view text, std::size_t at) {
   while (at > 0 && kBlank.find(text[at - 1]) != std::string_view::npos) --at;
   return at;
 }
 
-/// Which items may stay when the order of the list rules: a longest run of them that is in file order.
+/// Selects the items that stay when the list determines the order: a longest subsequence that is in file order.
 std::vector<bool> staying(const std::vector<ListItem>& items, bool keep_places) {
   std::vector<bool> stays(items.size(), false);
   std::vector<std::size_t> tails;  // [length - 1], the item that ends the best run of that length

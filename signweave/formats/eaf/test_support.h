@@ -67,7 +67,7 @@ inline std::string reference(std::string_view id, std::string_view parent, std::
       id, parent, before);
 }
 
-/// A tier whose type has its name in lower case among "root", "fill", "within", "divide", "tag".
+/// A tier whose type is one of the lower-case names "root", "fill", "within", "divide", "tag".
 inline std::string tier(std::string_view id, std::string_view type, std::string_view parent,
                         std::string_view annotations) {
   const std::string above = parent.empty() ? "" : fmt::format(" PARENT_REF=\"{}\"", parent);
@@ -122,7 +122,7 @@ inline std::string tier_bytes(const std::string& text, std::string_view id) {
   return text.substr(begin, text.find("</TIER>", name) - begin);
 }
 
-/// What a document is beside the bytes it was read from.
+/// A document without the bytes it was read from.
 inline AnnotationDocument without_source(AnnotationDocument document) {
   document.source.clear();
   return document;
@@ -132,7 +132,7 @@ inline AnnotationDocument reread(const AnnotationDocument& document) {
   return read_text("written.eaf", write_text(document)).document;
 }
 
-/// testdata/eaf/constraints.eaf: everything that EAF has.
+/// testdata/eaf/constraints.eaf, which uses every feature of EAF.
 inline AnnotationDocument constraints() {
   return read_text("constraints.eaf", testfile("constraints.eaf")).document;
 }

@@ -12,7 +12,7 @@
 namespace signweave::eaf {
 namespace {
 
-/// A stable sort; most tiers are in order as they come, and annotations are heavy to move.
+/// A stable sort; most tiers are already sorted, and annotations are expensive to move.
 template <typename Iterator, typename Before>
 void sort_unless_sorted(Iterator begin, Iterator end, const Before& before) {
   if (!std::is_sorted(begin, end, before)) std::stable_sort(begin, end, before);
@@ -50,7 +50,7 @@ class Settler {
   }
 
  private:
-  /// A stable sort by the time reached so far is ELAN's insertion of slot after slot.
+  /// A stable sort by the latest time so far is equivalent to ELAN's insertion of one slot after another.
   void rank_slots() {
     const std::size_t count = parts_.slots.size();
     std::vector<std::int64_t> reached(count);
@@ -67,7 +67,7 @@ class Settler {
     for (std::size_t i = 0; i < count; ++i) parts_.slots[order_[i]].rank = i;
   }
 
-  /// Those that refer to an annotation that was left out.
+  /// Leaves out the annotations that refer to one that was left out.
   void leave_out_orphans(FileTier& tier) {
     Ids missing;
     for (const FileAnnotation& one : parts_.tiers[tier.parent].left_out) missing.add(one.annotation.id, 0);
@@ -86,7 +86,7 @@ class Settler {
 
   std::size_t rank(std::size_t slot) const { return parts_.slots[slot].rank; }
 
-  /// Those with slots first, in the order of their slots; the others as in the file.
+  /// Sorts those with slots first, in the order of their slots; the others stay as in the file.
   void sort_by_slots(FileTier& tier) {
     const auto key = [&](const FileAnnotation& one) { return one.has_slots() ? rank(one.begin) : kNone; };
     sort_unless_sorted(tier.annotations.begin(), tier.annotations.end(),
@@ -101,7 +101,7 @@ class Settler {
       if (!above[i].has_slots()) continue;
       std::size_t& begins = begins_[above[i].begin];
       std::size_t& ends = ends_[above[i].end];
-      begins = std::min(begins, i);  // of several the first; kNone is past all
+      begins = std::min(begins, i);  // the first of several; kNone is greater than any
       ends = std::min(ends, i);
       by_rank.push_back(i);
     }
@@ -119,7 +119,7 @@ class Settler {
                              [&](std::size_t value, std::size_t parent) { return value < rank(above[parent].begin); });
         if (after == by_rank.begin()) continue;
         const FileAnnotation& around = above[*(after - 1)];
-        // Where its own times say otherwise, they are right: around an unaligned parent the order says little.
+        // If its own times contradict the order, the times decide: around an unaligned parent the order is unreliable.
         const bool fits = !one.annotation.aligned || around.annotation.span.contains(own_span(one));
         if (fits && rank(one.end) <= rank(around.end)) parents_[i] = *(after - 1);
       }
@@ -175,7 +175,7 @@ class Settler {
     for (const std::size_t slot : run) times_[slot] = time += step;
   }
 
-  /// The times of slots that no parent settles, between their neighbours in TIME_ORDER.
+  /// Spreads the times of slots that are in no parent between their neighbours in TIME_ORDER.
   void spread_the_rest() {
     if (rest_is_spread_) return;
     rest_is_spread_ = true;
@@ -202,7 +202,7 @@ class Settler {
   void set_spans(FileTier& tier) {
     std::size_t loose = 0;
     std::size_t clamped = 0;
-    std::size_t sound = 0;  // those before are kept
+    std::size_t sound = 0;  // number of sound ones so far
     for (std::size_t i = 0; i < tier.annotations.size(); ++i) {
       FileAnnotation& one = tier.annotations[i];
       const auto keep = [&] {
@@ -227,7 +227,7 @@ class Settler {
       if (begin > end && (one.annotation.aligned || rank(one.begin) > rank(one.end))) {
         const std::string what = fmt::format("annotation '{}' begins at {} ms, after its end at {} ms",
                                              printable(one.annotation.id), begin, end);
-        leave_out(xml_, unsound_, parts_, tier, std::move(one), what, "exchange its slots or correct a TIME_VALUE");
+        leave_out(xml_, unsound_, parts_, tier, std::move(one), what, "swap its slots or correct a TIME_VALUE");
         continue;
       }
       if (begin > end) ++clamped;
@@ -255,12 +255,12 @@ class Settler {
       const TimeSpan span = one.annotation.span;
       if (parents_[i] == kNone) {
         // Annotations of a tier do not overlap, so only the few that end after this one's begin and begin before its
-        // end can hold it.
+        // end can contain it.
         const auto first =
             std::lower_bound(above.begin(), above.end(), span.begin,
                              [](const FileAnnotation& a, Milliseconds time) { return a.annotation.span.end < time; });
         Milliseconds most{-1};
-        constexpr std::ptrdiff_t kTried = 64;  // in a file whose annotations overlap there may be very many
+        constexpr std::ptrdiff_t kTried = 64;  // if annotations overlap, there may be very many
         for (auto at = first; at != above.end() && at - first < kTried && at->annotation.span.begin <= span.end; ++at) {
           const TimeSpan other = at->annotation.span;
           Milliseconds shared = std::min(span.end, other.end) - std::max(span.begin, other.begin);
@@ -284,7 +284,7 @@ class Settler {
     }
   }
 
-  /// Spans of the annotations without slots.
+  /// Sets the spans of the annotations without slots.
   void divide_parents(FileTier& tier) {
     const auto first = std::find_if(tier.annotations.begin(), tier.annotations.end(),
                                     [](const FileAnnotation& one) { return !one.has_slots(); });
@@ -314,10 +314,10 @@ class Settler {
     }
   }
 
-  using Place = std::vector<FileAnnotation>::iterator;
+  using AnnotationIterator = std::vector<FileAnnotation>::iterator;
 
-  /// Brings the children of one parent into the order of their PREVIOUS_ANNOTATION; file order where that says nothing.
-  void follow_chain(Place begin, Place end) {
+  /// Sorts the children of one parent by their PREVIOUS_ANNOTATION; those outside the chain stay in file order.
+  void follow_chain(AnnotationIterator begin, AnnotationIterator end) {
     const auto count = static_cast<std::size_t>(end - begin);
     if (count == 1 && begin->previous.empty()) return;
     std::unordered_map<std::string_view, std::size_t> places;
@@ -340,7 +340,7 @@ class Settler {
     for (std::size_t i = 0; i < count; ++i) {
       for (std::size_t at = follows[i] ? kNone : i; at != kNone; at = next[at]) order.push_back(at);
     }
-    if (order.size() != count) {  // what is left is a ring
+    if (order.size() != count) {  // the rest is a cycle
       broken = true;
       std::vector<bool> placed(count, false);
       for (const std::size_t at : order) placed[at] = true;
@@ -393,10 +393,10 @@ class Settler {
   std::vector<std::optional<std::int64_t>> times_;  ///< [slot]
   std::vector<std::optional<std::int64_t>> rest_;   ///< [slot], see spread_the_rest
   bool rest_is_spread_ = false;
-  std::vector<std::size_t> begins_;   ///< [slot] the parent that begins there, while a tier's parents are looked for
-  std::vector<std::size_t> ends_;     ///< [slot] the same of ends
+  std::vector<std::size_t> begins_;   ///< [slot] the parent that begins there, for the tier being processed
+  std::vector<std::size_t> ends_;     ///< [slot] the parent that ends there
   std::vector<std::size_t> order_;    ///< slots by rank
-  std::vector<std::size_t> parents_;  ///< [annotation of the tier at hand], an index into the parent tier
+  std::vector<std::size_t> parents_;  ///< [annotation of the current tier], an index into the parent tier
 };
 
 }  // namespace

@@ -20,7 +20,7 @@ TEST(EafTimes, UnalignedSlotsAreSpreadEvenlyInsideTheirParent) {
                     tier("A", "root", "", alignable("p", 1, 4)) +
                         tier("B", "fill", "A", alignable("a", 1, 2) + alignable("b", 2, 3) + alignable("c", 3, 4))));
   EXPECT_THAT(file.notices, IsEmpty());
-  // 100 / 3, rounded down: the last piece is the longest
+  // 100 / 3, rounded down: the last part is the longest
   EXPECT_EQ(times(file.document, "B"), "a 100-133, b 133-166, c 166-200");
   EXPECT_FALSE(file.document.find_tier("B")->annotations[0].aligned);
   EXPECT_TRUE(file.document.find_tier("A")->annotations[0].aligned);
@@ -36,7 +36,7 @@ TEST(EafTimes, AnAlignedSlotDividesTheRun) {
 }
 
 TEST(EafTimes, SlotsOfOtherTiersBetweenDoNotCount) {
-  // TIME_ORDER has all unaligned slots between 100 and 100; by parents they lie between 100 and 400.
+  // TIME_ORDER has all unaligned slots between 100 and 100; by their parents they lie between 100 and 400.
   const File file = read_text(
       "x", document({100, kOpen, kOpen, 100, 250, 400},
                     tier("A", "root", "", alignable("p", 1, 6)) +
@@ -66,7 +66,7 @@ TEST(EafTimes, WithoutAParentTheNeighboursInTimeOrderCount) {
 }
 
 TEST(EafTimes, SlotsOutOfOrderAreSortedAsElanInsertsThem) {
-  // The unaligned slots stay after ts1, after which they were written; ts4 at 50 goes before all.
+  // The unaligned slots stay after ts1, after which they were written; ts4 at 50 comes before all others.
   const File file = read_text(
       "x", document({100, kOpen, 200, 50},
                     tier("A", "root", "", alignable("q", 4, 1) + alignable("p", 1, 3)) +
@@ -76,7 +76,7 @@ TEST(EafTimes, SlotsOutOfOrderAreSortedAsElanInsertsThem) {
   EXPECT_EQ(parents(file.document, "B"), "c<q, a<p, b<p");
 }
 
-TEST(EafTimes, ASlotThatStandsTooLateInTheFileCountsWhereItsTimeIs) {
+TEST(EafTimes, ASlotTooLateInTheFileCountsAtItsTime) {
   const File file = read_text("x", document({100, kOpen, 400, 200}, tier("A", "root", "", alignable("a", 1, 2)) +
                                                                         tier("B", "root", "", alignable("b", 4, 3))));
   EXPECT_EQ(times(file.document, "A"), "a 100-150");
@@ -98,7 +98,7 @@ TEST(EafTimes, WithoutAChainFileOrderCounts) {
   EXPECT_EQ(times(file.document, "B"), "b 100-150, a 150-200");
 }
 
-TEST(EafTimes, ARingOfPreviousAnnotationsIsANotice) {
+TEST(EafTimes, ACycleOfPreviousAnnotationsIsANotice) {
   const File file =
       read_text("x", document({100, 200}, tier("A", "root", "", alignable("p", 1, 2)) +
                                               tier("B", "divide", "A",
@@ -109,7 +109,7 @@ TEST(EafTimes, ARingOfPreviousAnnotationsIsANotice) {
   EXPECT_THAT(file.notices[0].text, testing::HasSubstr("make no chain"));
 }
 
-TEST(EafTimes, MorePiecesThanMillisecondsStayInOrder) {
+TEST(EafTimes, MorePartsThanMillisecondsStayInOrder) {
   const File file = read_text(
       "x", document({100, 102}, tier("A", "root", "", alignable("p", 1, 2)) +
                                     tier("B", "divide", "A",
@@ -145,7 +145,7 @@ TEST(EafTimes, AroundUnalignedParentsTheTimesOfAChildCountMoreThanTheOrderOfSlot
   EXPECT_THAT(file.notices, IsEmpty());
 }
 
-TEST(EafTimes, AChildThatReachesOutsideBelongsWhereMostOfItLies) {
+TEST(EafTimes, AChildThatReachesOutsideBelongsToTheParentWithMostOfIt) {
   const File file = read_text("x", document({0, 100, 100, 200, 80, 150, 300, 400},
                                             tier("A", "root", "", alignable("p", 1, 2) + alignable("q", 3, 4)) +
                                                 tier("B", "within", "A", alignable("a", 5, 6) + alignable("b", 7, 8))));
@@ -155,13 +155,13 @@ TEST(EafTimes, AChildThatReachesOutsideBelongsWhereMostOfItLies) {
   EXPECT_EQ(file.notices[1].text, "annotation 'b' lies in no annotation of the parent tier 'A'");
 }
 
-TEST(EafTimes, ManyAnnotationsTakeNoLongTime) {
+TEST(EafTimes, ManyAnnotationsAreReadQuickly) {
   constexpr int kCount = 60'000;
   std::vector<std::optional<int>> slots;
   std::string above;
   std::string below;
   for (int i = 0; i < kCount; ++i) {
-    slots.insert(slots.end(), {5, kOpen, 5});  // all at the same place, the worst case
+    slots.insert(slots.end(), {5, kOpen, 5});  // all at one time, the worst case
     above += alignable(fmt::format("p{}", i), 3 * i + 1, 3 * i + 3);
     below +=
         alignable(fmt::format("a{}", i), 3 * i + 1, 3 * i + 2) + alignable(fmt::format("b{}", i), 3 * i + 2, 3 * i + 3);

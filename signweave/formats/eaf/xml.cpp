@@ -33,7 +33,7 @@ void append_utf8(std::string& out, std::uint32_t letter) {
   }
 }
 
-/// How many bytes a unit has and which comes first; width 1 is ISO-8859-1.
+/// The number of bytes in a unit and their order; width 1 is ISO-8859-1.
 struct Encoding {
   std::size_t width = 0;  ///< 0: UTF-8
   bool big_endian = false;
@@ -80,14 +80,14 @@ Encoding encoding_by_bytes(std::string_view bytes) {
   return {};
 }
 
-/// What the XML declaration says, in lower case; empty where it says nothing.
+/// The encoding in the XML declaration, in lower case; empty if there is none.
 std::string declared_encoding(std::string_view bytes) {
   std::string_view head = bytes.substr(0, 1024);
   if (head.starts_with(kUtf8Mark)) head.remove_prefix(kUtf8Mark.size());
   if (!head.starts_with("<?xml")) return {};
   head = head.substr(0, head.find("?>"));
   std::size_t at = head.find("encoding");
-  // The name of an attribute, not the end of another's.
+  // The name of an attribute, not the end of a longer name.
   while (at != std::string_view::npos && std::string_view(" \t\r\n").find(head[at - 1]) == std::string_view::npos) {
     at = head.find("encoding", at + 1);
   }
@@ -100,9 +100,9 @@ std::string declared_encoding(std::string_view bytes) {
   return name == "UTF-8" ? "utf-8" : fold_case(name);
 }
 
-/// Written out, at least; nearly no file does, and that is soon known.
+/// Checks for control characters that are written out; almost no file has any, which this quickly establishes.
 bool holds_control_characters(std::string_view text) noexcept {
-  // Without branches and in bytes alone, so that the compiler looks at sixteen letters at once.
+  // Without branches and in bytes alone, so that the compiler tests sixteen characters at once.
   std::uint8_t found = 0;
   for (const char letter : text) {
     const auto code = static_cast<std::uint8_t>(letter);
@@ -116,7 +116,7 @@ bool holds_control_characters(std::string_view text) noexcept {
 
 Xml::Xml(std::string name, std::string_view bytes, std::string_view wanted) : name_(std::move(name)) {
   decode(bytes, wanted);
-  // Blank labels are labels: without ws_pcdata they would be dropped.
+  // Blank labels are valid labels: without ws_pcdata they would be dropped.
   const pugi::xml_parse_result result =
       document_.load_buffer(text_.data(), text_.size(), pugi::parse_full | pugi::parse_ws_pcdata, pugi::encoding_utf8);
   if (result.status == pugi::status_no_document_element) {
@@ -146,7 +146,7 @@ void Xml::decode(std::string_view bytes, std::string_view wanted) {
   }
   const std::string_view start = trimmed(text_.substr(text_.starts_with(kUtf8Mark) ? kUtf8Mark.size() : 0));
   if (text_.find('\0') != std::string_view::npos || !start.starts_with('<')) {
-    fail_at(0, fmt::format("this is no XML; give {}", wanted));
+    fail_at(0, fmt::format("this is not XML; give {}", wanted));
   }
   has_references_ = text_.find("&#") != std::string_view::npos;
   if (is_utf8(text_)) return;
@@ -187,14 +187,15 @@ std::string Xml::where(pugi::xml_node node) const {
 }
 
 std::string_view Xml::attribute(pugi::xml_node node, const char* name) const {
-  // Most files have their attributes in the order in which they are asked for: the search goes on where it last ended.
+  // Most files have their attributes in the order in which they are requested, so the search continues where it last
+  // ended.
   if (node != last_node_) {
     last_node_ = node;
     last_attribute_ = pugi::xml_attribute();
   }
   const std::string_view value = node.attribute(name, last_attribute_).value();
   // A character reference may name half a surrogate pair.
-  if (has_references_ && !is_utf8(value)) fail(node, fmt::format("{} is no Unicode text; write it again", name));
+  if (has_references_ && !is_utf8(value)) fail(node, fmt::format("{} is not valid Unicode; write it again", name));
   return value;
 }
 
@@ -210,7 +211,7 @@ std::string Xml::content(pugi::xml_node node) const {
     if (child.type() == pugi::node_pcdata || child.type() == pugi::node_cdata) text += child.value();
   }
   if (has_references_ && !is_utf8(text))
-    fail(node, fmt::format("the text of <{}> is no Unicode text; write it again", node.name()));
+    fail(node, fmt::format("the text of <{}> is not valid Unicode; write it again", node.name()));
   return text;
 }
 
@@ -234,7 +235,7 @@ void refuse_control_characters(const Xml& xml) {
   for (std::size_t i = 0; i < text.size(); ++i) {
     unsigned code = static_cast<unsigned char>(text[i]);
     if (code == '\n') ++line;
-    if (i >= plain_until) {  // in comments and CDATA a reference means nothing
+    if (i >= plain_until) {  // in comments and CDATA a reference has no meaning
       if (text.substr(i, 4) == "<!--") plain_until = text.find("-->", i);
       if (text.substr(i, 9) == "<![CDATA[") plain_until = text.find("]]>", i);
     }
@@ -245,14 +246,14 @@ void refuse_control_characters(const Xml& xml) {
     }
     if (code >= 0x20 || code == '\t' || code == '\n' || code == '\r') continue;
     throw Error(ErrorCode::bad_input,
-                fmt::format("{}:{}: a control character (\\x{:02x}), which XML cannot hold; take it out", xml.name(),
+                fmt::format("{}:{}: a control character (\\x{:02x}), which XML cannot hold; remove it", xml.name(),
                             line, code));
   }
 }
 
 std::string escaped(std::string_view text, std::string_view what) {
   const auto refuse = [&](std::string_view fault) {
-    throw Error(ErrorCode::bad_input, fmt::format("{} '{}' {}; take it out", what, printable(text), fault));
+    throw Error(ErrorCode::bad_input, fmt::format("{} '{}' {}; remove it", what, printable(text), fault));
   };
   if (!is_utf8(text)) refuse("has bytes that are not UTF-8");
   if (text.find("\xEF\xBF\xBE") != std::string_view::npos || text.find("\xEF\xBF\xBF") != std::string_view::npos) {
@@ -274,7 +275,7 @@ std::string escaped(std::string_view text, std::string_view what) {
       case '"':
         out += "&quot;";
         break;
-      case '\n':  // as it stands, an attribute would lose it
+      case '\n':  // unescaped, it would be lost in an attribute
         out += "&#10;";
         break;
       case '\r':

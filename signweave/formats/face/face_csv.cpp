@@ -77,14 +77,14 @@ constexpr std::string_view kNames[] = {"eyeBlinkLeft",
                                        "rightEyePitch",
                                        "rightEyeRoll"};
 
-/// The timecodes that are written, and what is taken where a file does not tell: Live Link Face's own.
+/// The rate of timecodes that are written, and the one assumed if a file does not determine it: Live Link Face's own.
 constexpr int kUsualRate = 60;
 
 bool is_known(std::string_view name) {
   return std::find(std::begin(kNames), std::end(kNames), name) != std::end(kNames);
 }
 
-/// "EyeBlinkLeft" and "eyeBlinkLeft": the file's name of a track, and ours.
+/// Converts between the file's name of a track, "EyeBlinkLeft", and ours, "eyeBlinkLeft".
 std::string with_first(std::string_view name, bool upper) {
   std::string result(name);
   char& first = result[0];
@@ -112,7 +112,7 @@ std::optional<Number> number(std::string_view text) {
   return value;
 }
 
-/// A timecode as it is printed: how long a frame is follows from the whole file.
+/// A timecode as printed; the duration of a frame follows from the whole file.
 struct Timecode {
   std::int64_t second = 0;
   double frame = 0;
@@ -132,8 +132,8 @@ std::optional<Timecode> parse_timecode(std::string_view text) {
   return Timecode{(parts[0] * 60 + parts[1]) * 60 + parts[2], *frame};
 }
 
-/// How many frames a second the timecodes count. Where the rows are a frame apart and a second is seen whole, its
-/// highest frame number tells.
+/// The frames per second that the timecodes count. If the rows are one frame apart and a whole second is present, its
+/// highest frame number gives the rate.
 int rate_of(const std::vector<Timecode>& codes) {
   double highest = 0;
   std::vector<double> steps;
@@ -148,23 +148,23 @@ int rate_of(const std::vector<Timecode>& codes) {
     step = *middle;
   }
   const bool whole = !codes.empty() && codes.back().second - codes.front().second >= 2;
-  const bool tells = whole && std::abs(step - 1) < 0.1;
-  if (highest < kUsualRate && !tells) return kUsualRate;
+  const bool is_certain = whole && std::abs(step - 1) < 0.1;
+  if (highest < kUsualRate && !is_certain) return kUsualRate;
   for (const int rate : {24, 25, 30, 48, 50, 60, 90, 100, 120, 200, 240}) {
     if (highest < rate) return rate;
   }
   return 1000;
 }
 
-/// The headings, as names of tracks.
+/// Reads the headings as names of tracks.
 std::vector<std::string> read_heading(TextReader& reader) {
   const std::string line(reader.rest_of_line());
   const std::vector<std::string_view> columns = fields_of(line);
   if (columns.size() < 3 || fold_case(columns[0]) != "timecode" || fold_case(columns[1]) != "blendshapecount") {
     reader.fail(
-        "expected the heading Timecode,BlendShapeCount,EyeBlinkLeft,…; this is no face capture of Live Link Face");
+        "expected the heading Timecode,BlendShapeCount,EyeBlinkLeft,…; this is not a face capture of Live Link Face");
   }
-  // Each column becomes a number for each frame of the motion: a heading alone must not ask for gigabytes.
+  // Each column becomes a number for each frame of the motion: a heading alone must not request gigabytes.
   constexpr std::size_t kMostColumns = 500;
   if (columns.size() > kMostColumns) {
     reader.fail(fmt::format("{} columns, and {} is the most; Live Link Face writes 63", columns.size(), kMostColumns));
@@ -177,11 +177,11 @@ std::vector<std::string> read_heading(TextReader& reader) {
     names.push_back(with_first(columns[i], false));
     known = known || is_known(names.back());
     if (!seen.insert(names.back()).second) {
-      reader.fail(fmt::format("column '{}' is there twice; remove one", printable(columns[i])));
+      reader.fail(fmt::format("column '{}' occurs twice; remove one", printable(columns[i])));
     }
   }
   if (!known) {
-    reader.fail(fmt::format("column '{}' and the others are no names of ARKit's, such as EyeBlinkLeft; rename them",
+    reader.fail(fmt::format("column '{}' and the others are not ARKit names, such as EyeBlinkLeft; rename them",
                             printable(columns[2])));
   }
   return names;
@@ -195,16 +195,16 @@ Face read(TextReader& reader) {
   for (const ScalarTrack& track : face.tracks) {
     if (!is_known(track.name)) others += (others.empty() ? "" : ", ") + track.name;
   }
-  if (!others.empty()) face.notices.push_back(reader.notice("tracks beside ARKit's: " + printable(others)));
+  if (!others.empty()) face.notices.push_back(reader.notice("tracks in addition to ARKit's: " + printable(others)));
 
   std::vector<Timecode> codes;      // of every row
-  std::vector<std::size_t> filled;  // which of them have values
+  std::vector<std::size_t> filled;  // indices of the rows with values
   std::int64_t midnights = 0;
   while (!reader.peek().empty()) {
     const std::string line(reader.rest_of_line());
     const std::vector<std::string_view> fields = fields_of(line);
     const auto code = parse_timecode(fields[0]);
-    if (!code) reader.fail(fmt::format("'{}' is no timecode HOURS:MINUTES:SECONDS:FRAMES", printable(fields[0])));
+    if (!code) reader.fail(fmt::format("'{}' is not a timecode HOURS:MINUTES:SECONDS:FRAMES", printable(fields[0])));
     codes.push_back(*code);
     codes.back().second += midnights;
     if (codes.size() > 1) {
@@ -227,10 +227,10 @@ Face read(TextReader& reader) {
                               face.tracks.size() + 2));
     }
     for (std::size_t i = 0; i < face.tracks.size(); ++i) {
-      const auto read = number<double>(fields[i + 2]);  // what is too small for a float is 0
+      const auto read = number<double>(fields[i + 2]);  // values too small for a float are 0
       const std::optional<float> value = read ? std::optional(static_cast<float>(*read)) : std::nullopt;
       if (!value || !std::isfinite(*value)) {
-        reader.fail(fmt::format("'{}' in column {} is no finite number", printable(fields[i + 2]),
+        reader.fail(fmt::format("'{}' in column {} is not a finite number", printable(fields[i + 2]),
                                 printable(with_first(face.tracks[i].name, true))));
       }
       face.tracks[i].values.push_back(*value);

@@ -11,41 +11,41 @@
 #include "signweave/core/time.h"
 #include "signweave/motion/motion.h"
 
-/// Face capture as Live Link Face writes it: a line of headings (Timecode, BlendShapeCount, then 52 ARKit names and 9
-/// head and eye rotations), and a line a frame. Inside signweave the names are ARKit's own: EyeBlinkLeft is
+/// Face capture as written by Live Link Face: a line of headings (Timecode, BlendShapeCount, then 52 ARKit names and 9
+/// head and eye rotations), and one line per frame. Inside signweave the names are ARKit's own: EyeBlinkLeft is
 /// "eyeBlinkLeft".
 namespace signweave::face_csv {
 
-/// What such a file holds.
+/// The contents of such a file.
 struct Face {
   FrameRate rate;                   ///< of its timecode: whole frames a second
   Seconds first{0};                 ///< the first row's timecode, since midnight
-  std::vector<Seconds> times;       ///< [row] since the first row, never going back
-  std::vector<ScalarTrack> tracks;  ///< in the file's order, each with one value a row
+  std::vector<Seconds> times;       ///< [row] since the first row, never decreasing
+  std::vector<ScalarTrack> tracks;  ///< in the file's order, each with one value per row
   std::vector<Notice> notices;
 };
 
 /// Reads a file. A timecode is HOURS:MINUTES:SECONDS:FRAMES.PART; its rate is the standard one above the highest frame
-/// number where a second is seen whole, else 60. Rows whose count is 0 and that have no values (no face was seen) are
-/// passed over. Throws Error{bad_input, "FILE:LINE: …"} for what is no such file, Error{not_found}, Error{io}.
+/// number if a whole second is present, else 60. Rows whose count is 0 and that have no values (no face was seen) are
+/// skipped. Throws Error{bad_input, "FILE:LINE: …"} if it is not such a file, Error{not_found}, Error{io}.
 Face read(const std::filesystem::path& path);
-/// The same from text; `name` stands for the file in errors.
+/// Reads from text; `name` stands for the file in errors.
 Face read_text(const std::string& name, std::string_view text);
 
-/// A timecode "HH:MM:SS:FF.fff" since midnight, a second being `rate` of its frames; none where it is no timecode.
+/// A timecode "HH:MM:SS:FF.fff" since midnight, with `rate` frames per second; nullopt if it is not a timecode.
 std::optional<Seconds> seconds_of(std::string_view timecode, FrameRate rate);
 
-/// When the face's first row is, in seconds of a motion whose frame 0 is at a timecode since midnight. Both are of one
-/// day or of the night between two: the answer lies within twelve hours.
+/// The time of the face's first row, in seconds of a motion whose frame 0 is at a timecode since midnight. Both are
+/// from the same day or from the two days of one night: the result lies within twelve hours.
 Seconds start_of(const Face& face, Seconds motion_timecode);
 
-/// The tracks at the frames of a motion, the first row at `start` of the motion: linear between rows, the first value
-/// held before the first row and the last after the last. An ARKit track that is 0 throughout says nothing and is left
-/// out (of a face all at rest one is kept): the file always has its column, and `write_text` writes it as 0.
+/// The tracks at the frames of a motion, with the first row at `start` of the motion: linear between rows, constant
+/// before the first row and after the last. An ARKit track that is 0 throughout carries no information and is omitted
+/// (if all are, one is kept): the file always has its column, and `write_text` writes it as 0.
 std::vector<ScalarTrack> resampled(const Face& face, FrameRate rate, std::int64_t frames, Seconds start = Seconds(0));
 
-/// The scalar tracks of a motion: every ARKit name, 0 where the motion has no such track, then its other tracks. The
-/// timecode begins at 0.
+/// A file with the scalar tracks of a motion: every ARKit name, 0 if the motion has no such track, then its other
+/// tracks. The timecode begins at 0.
 std::string write_text(const Motion& motion);
 
 /// The names of the columns: 52 of ARKit in Live Link Face's order, then head and eyes.

@@ -38,7 +38,7 @@ std::vector<long> times_ms(const face_csv::Face& face) {
   return times;
 }
 
-/// Rows a frame apart over some seconds.
+/// Rows one frame apart, for some seconds.
 std::string rows_at(int rate, int seconds) {
   std::string rows;
   for (int i = 0; i < rate * seconds; ++i) rows += fmt::format("10:00:{:02}:{:02}.125,2,0,0\n", i / rate, i % rate);
@@ -58,7 +58,7 @@ TEST(FaceCsv, NamesAreArkitsAndTimesCountFromTheFirstRow) {
   EXPECT_THAT(face.notices, IsEmpty());
 }
 
-TEST(FaceCsv, TheRateIsTheFramesThatASecondIsSeenToHave) {
+TEST(FaceCsv, TheRateIsTheNumberOfFramesInAWholeSecond) {
   for (const int rate : {24, 25, 30, 60, 100, 120}) {
     const face_csv::Face face = read_rows(rows_at(rate, 3));
     EXPECT_EQ(face.rate, (FrameRate{rate, 1}));
@@ -70,7 +70,7 @@ TEST(FaceCsv, TheRateIsTheFramesThatASecondIsSeenToHave) {
   EXPECT_EQ(read_rows("0:0:0:0,2,0,0\n0:0:0:75,2,0,0\n").rate, (FrameRate{90, 1})) << "60 has no frame 75";
 }
 
-TEST(FaceCsv, TimeGoesOnAfterMidnight) {
+TEST(FaceCsv, TimeContinuesAfterMidnight) {
   EXPECT_THAT(times_ms(read_rows("23:59:59:30,2,0,0\n00:00:00:00,2,0,0\n00:00:00:30,2,0,0\n")),
               ElementsAre(0, 500, 1000));
   constexpr long kHour = 3'600'000;
@@ -86,29 +86,29 @@ TEST(FaceCsv, RowsThatSawNoFaceAreBridged) {
   EXPECT_EQ(face.notices[0].text, "2 of 4 rows saw no face and are bridged");
 }
 
-TEST(FaceCsv, TracksBesideArkitsAreKeptAndTold) {
+TEST(FaceCsv, OtherTracksThanArkitsAreReadAndReported) {
   const face_csv::Face face = face_csv::read_text("f.csv", "timecode,blendshapecount,JawOpen,Ear\n0:0:0:0,2,0,1\n");
   EXPECT_EQ(face.tracks[1].name, "ear");
   ASSERT_EQ(face.notices.size(), 1u);
-  EXPECT_EQ(face.notices[0].text, "tracks beside ARKit's: ear");
+  EXPECT_EQ(face.notices[0].text, "tracks in addition to ARKit's: ear");
 }
 
-TEST(FaceCsv, AFaultIsToldWithItsLine) {
+TEST(FaceCsv, AnErrorNamesItsLine) {
   EXPECT_THAT(face_error(""), HasSubstr("f.csv:1: the file is empty"));
   EXPECT_THAT(face_error("frame,time_s,Hips.x\n0,0,1\n"),
               HasSubstr("f.csv:1: expected the heading Timecode,BlendShape"));
   EXPECT_THAT(face_error("Timecode,BlendShapeCount\n"), HasSubstr("f.csv:1: expected the heading"));
   EXPECT_THAT(face_error("Timecode,BlendShapeCount,JawOpen,\n"), HasSubstr("f.csv:1: column 4 has no name"));
-  EXPECT_THAT(face_error("Timecode,BlendShapeCount,JawOpen,jawOpen\n"), HasSubstr("column 'jawOpen' is there twice"));
+  EXPECT_THAT(face_error("Timecode,BlendShapeCount,JawOpen,jawOpen\n"), HasSubstr("column 'jawOpen' occurs twice"));
   EXPECT_THAT(face_error("Timecode,BlendShapeCount,Ear\n"),
-              HasSubstr("column 'Ear' and the others are no names of ARKit's"));
+              HasSubstr("column 'Ear' and the others are not ARKit names"));
   EXPECT_THAT(face_error(kHeading), HasSubstr("f.csv:2: no row with values"));
   EXPECT_THAT(face_error(kHeading + "0:0:0:0,0,,\n"), HasSubstr("f.csv:3: no row with values"));
   EXPECT_THAT(face_error(kHeading + "\n0:0:0:0,2,0,0\n0:0:0:1,2,0\n"),
               HasSubstr("f.csv:4: 3 columns where the heading has 4"));
   EXPECT_THAT(face_error(kHeading + "0:0:0:0,2,0,0,0\n"), HasSubstr("f.csv:2: 5 columns where the heading has 4"));
   EXPECT_THAT(face_error(kHeading + "0:0:0:0,2,0,x\n"),
-              HasSubstr("f.csv:2: 'x' in column EyeBlinkLeft is no finite number"));
+              HasSubstr("f.csv:2: 'x' in column EyeBlinkLeft is not a finite number"));
   for (const char* value : {"nan", "inf", "1e99", "", "0x1", "1,5 "}) {
     EXPECT_THAT(face_error(kHeading + "0:0:0:0,2,0," + value + "\n"), HasSubstr("f.csv:2: ")) << value;
   }
@@ -117,7 +117,7 @@ TEST(FaceCsv, AFaultIsToldWithItsLine) {
   EXPECT_THAT(face_error(kHeading + "0:0:0:0\n"), HasSubstr("f.csv:2: expected a number in the column BlendShape"));
   for (const char* code : {"", "0", "0:0:0", "24:0:0:0", "0:60:0:0", "0:0:60:0", "-1:0:0:0", "0:0:0:-1", "0:0:0:1e9",
                            "0:0:0:nan", "0:0:0;0", "0:0:0:0:0", "a:0:0:0"}) {
-    EXPECT_THAT(face_error(kHeading + code + ",2,0,0\n"), HasSubstr("is no timecode")) << code;
+    EXPECT_THAT(face_error(kHeading + code + ",2,0,0\n"), HasSubstr("is not a timecode")) << code;
   }
   EXPECT_THAT(face_error(kHeading + "0:0:5:0,2,0,0\n0:0:4:59,2,0,0\n"),
               HasSubstr("f.csv:3: the timecode 0:0:4:59 goes back"));
@@ -135,7 +135,7 @@ TEST(FaceCsv, ResamplingIsLinearAndHoldsTheLastValue) {
   EXPECT_THAT(face_csv::resampled(face, {20, 1}, 0)[0].values, IsEmpty());
 }
 
-TEST(FaceCsv, BeginsWhereItIsToldTo) {
+TEST(FaceCsv, BeginsAtTheGivenStart) {
   const face_csv::Face face = read_rows("10:20:30:0,2,0,1\n10:20:30:30,2,1,1\n");
   EXPECT_DOUBLE_EQ(face.first.count(), 37'230);
   // 4 frames a second: the first row at 0.25 s, the second at 0.75 s.
@@ -143,7 +143,7 @@ TEST(FaceCsv, BeginsWhereItIsToldTo) {
   EXPECT_THAT(face_csv::resampled(face, {4, 1}, 3, Seconds(-0.25))[0].values, ElementsAre(0.5f, 1, 1));
 }
 
-TEST(FaceCsv, TimecodesTellWhereItLiesInAMotion) {
+TEST(FaceCsv, TimecodesGiveItsStartInAMotion) {
   const face_csv::Face face = read_rows("00:00:01:30,2,0,1\n");
   EXPECT_DOUBLE_EQ(face_csv::seconds_of("00:00:01:15", {60, 1})->count(), 1.25);
   EXPECT_FALSE(face_csv::seconds_of("1:15", {60, 1}));
@@ -200,13 +200,13 @@ TEST(FaceCsv, TakesNumbersTooSmallForAFloatAsZero) {
   EXPECT_EQ(face_csv::read_text("f.csv", "Timecode,BlendShapeCount,JawOpen\n0:0:0:0,1,1e-50\n").tracks[0].values[0], 0);
 }
 
-TEST(FaceCsv, RefusesAHeadingOfThousands) {
+TEST(FaceCsv, RefusesAHeadingWithThousandsOfColumns) {
   std::string heading = "Timecode,BlendShapeCount,JawOpen";
   for (int i = 0; i < 600; ++i) heading += fmt::format(",C{}", i);
   EXPECT_THROW(face_csv::read_text("f.csv", heading + "\n"), Error);
 }
 
-TEST(FaceCsvResampled, LeavesOutArkitTracksThatSayNothing) {
+TEST(FaceCsvResampled, LeavesOutArkitTracksThatAreAlwaysZero) {
   const auto names = [](const std::string& text) {
     std::vector<std::string> found;
     for (const ScalarTrack& track : face_csv::resampled(face_csv::read_text("f.csv", text), {60, 1}, 3)) {

@@ -16,11 +16,11 @@ namespace {
 
 constexpr std::string_view kArrayBlanks = " \t\r\n,";
 
-/// Inflates into exactly `out`; false where the bytes are damaged, or more or fewer come of them.
+/// Inflates into exactly `out`; false if the bytes are damaged or give a different number of bytes.
 bool inflate_exactly(std::string_view in, std::vector<char>& out) {
   z_stream stream{};
   if (::inflateInit(&stream) != Z_OK) throw std::bad_alloc();
-  // zlib's interface takes what it only reads without const.
+  // zlib's interface lacks const for input that it only reads.
   stream.next_in = const_cast<Bytef*>(reinterpret_cast<const Bytef*>(in.data()));
   stream.avail_in = static_cast<uInt>(in.size());
   char none = 0;
@@ -32,7 +32,7 @@ bool inflate_exactly(std::string_view in, std::vector<char>& out) {
   return whole;
 }
 
-/// The number as it is kept; fails where it measures nothing.
+/// The number as stored; fails if it cannot be a measurement.
 float measurement(const Source& source, const Record& record, double number) {
   if (!(std::abs(number) <= 1e9)) {
     source.fail(record.place,
@@ -45,7 +45,7 @@ float measurement(const Source& source, const Record& record, double number) {
 
 const Value& Arrays::array_of(const Record& record) const {
   if (record.values.empty() || record.values[0].kind != Value::Kind::array) {
-    source_.fail(record.place, fmt::format("{} is no array of numbers", printable(record.name)));
+    source_.fail(record.place, fmt::format("{} is not an array of numbers", printable(record.name)));
   }
   return record.values[0];
 }
@@ -73,7 +73,7 @@ std::vector<char> Arrays::unpacked(const Record& record, const Value& array, std
 
 template <typename T>
 std::vector<T> Arrays::numbers_of_text(const Record& record, const Value& array) {
-  // A number takes two characters at least, so the count is not believed before they are seen.
+  // A number takes at least two characters, so the count is checked against the bytes first.
   if (array.count > array.bytes.size()) {
     source_.fail(record.place,
                  fmt::format("{} announces {} numbers and does not have them", printable(record.name), array.count));

@@ -5,20 +5,21 @@
 
 #include "signweave/formats/fbx/tree.h"
 
-/// The arrays of numbers in an FBX file, checked in full: their count, their inflated size, that every number is one.
+/// The arrays of numbers in an FBX file, fully checked: their count, their inflated size, and that every element is a
+/// number.
 namespace signweave::fbx {
 
-/// Unpacks arrays of one file, and no more than an animation of its size can hold.
+/// Unpacks the arrays of one file, up to the amount that an animation of its size can hold.
 class Arrays {
  public:
   /// Borrows the source, which must outlive this.
   explicit Arrays(const Source& source) : source_(source), left_(source.bytes.size() * 64 + (std::size_t{1} << 20)) {}
 
-  /// The numbers of the record's array. Throws as Source::fail does where it has none or they are none.
+  /// The numbers of the record's array. Throws as Source::fail does if there is none or its elements are not numbers.
   std::vector<std::int64_t> wholes(const Record& record);
   std::vector<float> reals(const Record& record);
-  /// The attributes of keys: four floats each, of which the text form writes the last two as the whole number of their
-  /// bits. As bits.
+  /// The attributes of keys, as bits: four floats each; in the text form the last two are written as the integer value
+  /// of their bits.
   std::vector<std::uint32_t> attributes(const Record& record);
 
  private:

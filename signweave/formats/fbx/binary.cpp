@@ -8,7 +8,7 @@
 namespace signweave::fbx {
 namespace {
 
-/// Deflate makes at most 1,032 bytes of one.
+/// Deflate expands one byte to at most 1,032.
 constexpr std::uint64_t kMostDeflation = 1032;
 
 class BinaryReader {
@@ -19,7 +19,7 @@ class BinaryReader {
     Record root;
     take(23, "its head");
     const auto version = number<std::uint32_t>("the version");
-    // From 7.5 on places and counts are of 64 bits.
+    // From version 7.5 on, positions and counts have 64 bits.
     wide_ = version >= 7500;
     root.values.push_back(whole(version));
     if (version < 7100 || version >= 8000) return root;
@@ -119,10 +119,11 @@ class BinaryReader {
   std::uint64_t place_number() { return wide_ ? number<std::uint64_t>("a record") : number<std::uint32_t>("a record"); }
 
   void count_one(std::size_t place) {
-    if (++values_ > kMostValues) source_.fail(place, "more than 4 million values beside meshes; this is no animation");
+    if (++values_ > kMostValues)
+      source_.fail(place, "more than 4 million values besides meshes; this is not an animation");
   }
 
-  /// Reads a record that must end at or before `limit`; false where the empty record stands that ends a list.
+  /// Reads a record that must end at or before `limit`; false for the empty record that ends a list.
   bool read(Record& record, int depth, std::string_view around, std::uint64_t limit) {
     record.place = at_;
     const std::uint64_t end = place_number();
@@ -137,7 +138,7 @@ class BinaryReader {
       at_ = static_cast<std::size_t>(end);
       return true;
     }
-    if (depth >= kMostDepth) source_.fail(record.place, "records in records, deeper than 32; export it again");
+    if (depth >= kMostDepth) source_.fail(record.place, "records nested deeper than 32; export it again");
     count_one(record.place);
     // A value has at least two bytes.
     if (size > end - at_ || count > size) {

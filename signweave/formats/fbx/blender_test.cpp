@@ -14,18 +14,18 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Place {
+struct BonePose {
   std::int64_t frame = 0;
   std::string bone;
   Eigen::Vector3d head;
   Eigen::Quaterniond turn;
 };
 
-/// Blender's own places, in our space: its Z is up, its -Y front.
-std::vector<Place> places_of_blender(const fs::path& path) {
+/// Blender's own positions, in our space: its Z is up, its -Y front.
+std::vector<BonePose> places_of_blender(const fs::path& path) {
   const Eigen::Quaterniond ours(Eigen::AngleAxisd(-std::numbers::pi / 2, Eigen::Vector3d::UnitX()));
   std::istringstream in(read_file(path));
-  std::vector<Place> places;
+  std::vector<BonePose> places;
   std::string line;
   std::getline(in, line);
   while (std::getline(in, line)) {
@@ -45,9 +45,10 @@ std::vector<Place> places_of_blender(const fs::path& path) {
 
 const fs::path kBlenderFolder = fs::path(SIGNWEAVE_SOURCE_DIR) / "testdata" / "fbx";
 
-// Blender turns bones within themselves for another primary axis, so a bone's turn is compared with its own in frame 0.
-TEST(FbxOfBlender, EveryBoneOfEveryVariantStandsWhereBlenderHasIt) {
-  const std::vector<Place> places = places_of_blender(kBlenderFolder / "blender.csv");
+// Blender rotates bones about themselves for another primary axis, so a bone's rotation is compared with its own in
+// frame 0.
+TEST(FbxOfBlender, EveryBoneOfEveryVariantIsWhereBlenderHasIt) {
+  const std::vector<BonePose> places = places_of_blender(kBlenderFolder / "blender.csv");
   ASSERT_EQ(places.size(), 36u);
   int files = 0;
   for (const auto& entry : fs::directory_iterator(kBlenderFolder)) {
@@ -57,7 +58,7 @@ TEST(FbxOfBlender, EveryBoneOfEveryVariantStandsWhereBlenderHasIt) {
     const File file = read(entry.path(), {.take = "Body|first"});
     ASSERT_EQ(file.motion.frame_count(), 6);
     EXPECT_EQ(file.motion.rate(), (FrameRate{25, 1}));
-    for (const Place& place : places) {
+    for (const BonePose& place : places) {
       const auto joint = file.motion.skeleton().find(place.bone);
       ASSERT_TRUE(joint) << place.bone;
       const auto index = static_cast<std::size_t>(*joint);
@@ -65,7 +66,7 @@ TEST(FbxOfBlender, EveryBoneOfEveryVariantStandsWhereBlenderHasIt) {
       const ModelPose first = to_model_space(file.motion.skeleton(), file.motion.pose(0));
       EXPECT_LT((pose.positions[index].cast<double>() - place.head).norm(), 1e-5) << place.bone << place.frame;
       const auto start =
-          std::find_if(places.begin(), places.end(), [&](const Place& one) { return one.bone == place.bone; });
+          std::find_if(places.begin(), places.end(), [&](const BonePose& one) { return one.bone == place.bone; });
       const Eigen::Quaterniond expected = place.turn * start->turn.conjugate();
       const Eigen::Quaterniond found = (pose.rotations[index] * first.rotations[index].conjugate()).cast<double>();
       EXPECT_LT(expected.angularDistance(found) * 180 / std::numbers::pi, 0.01) << place.bone << place.frame;

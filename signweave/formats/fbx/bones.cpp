@@ -13,7 +13,7 @@ bool is_bone_type(const std::string& type) noexcept {
   return type == "LimbNode" || type == "Limb" || type == "Root";
 }
 
-/// Nodes without those above them, [node] true where one is kept: bones and what is above one.
+/// [node] true for the nodes that are kept: bones and their ancestors.
 std::vector<bool> kept_nodes(const std::vector<Node>& nodes, const std::vector<bool>& bones) {
   std::vector<bool> kept(nodes.size());
   for (std::size_t i = 0; i < nodes.size(); ++i) {
@@ -23,7 +23,7 @@ std::vector<bool> kept_nodes(const std::vector<Node>& nodes, const std::vector<b
   return kept;
 }
 
-/// The kept nodes below and with `root`, parents first, children in the file's order.
+/// `root` and the kept nodes below it, parents first, children in the file's order.
 std::vector<std::size_t> tree_below(const std::vector<Node>& nodes, const std::vector<bool>& kept, std::size_t root) {
   std::vector<std::size_t> order;
   std::vector<std::size_t> open{root};
@@ -51,7 +51,7 @@ std::vector<std::size_t> bones_of(const Source& source, const Scene& scene, std:
           ErrorCode::bad_input,
           fmt::format("{}: it has no bones (LimbNode, Limb, Root or Null); export it with its skeleton", source.name));
     }
-    notices.push_back({source.name, "nothing in it is called a bone, so its Null nodes are taken for bones"});
+    notices.push_back({source.name, "none of its nodes has the type of a bone, so its Null nodes are used as bones"});
   }
   const std::vector<bool> kept = kept_nodes(nodes, bones);
   std::vector<std::size_t> best;

@@ -26,7 +26,7 @@ std::vector<fs::path> fbx_files_in(const fs::path& folder, const char* extension
   return files;
 }
 
-// x.expected beside x.fbx holds what follows "x.fbx:" in the message; a file without one fails here.
+// x.expected next to x.fbx holds what follows "x.fbx:" in the message; a file without one fails here.
 TEST(FbxBroken, EveryBrokenFileIsRefusedWithOneLine) {
   const std::vector<fs::path> files = fbx_files_in(kBrokenFbx, ".fbx");
   ASSERT_GE(files.size(), 70u);
@@ -52,7 +52,7 @@ TEST(FbxBroken, EveryExpectationHasItsFile) {
   }
 }
 
-TEST(FbxBroken, AFileCutAnywhereIsRefused) {
+TEST(FbxBroken, ATruncatedFileIsRefused) {
   for (const char* name : {"arm.fbx", "arm_7400.fbx", "arm_7700.fbx"}) {
     const std::string bytes = read_file(kWholeFbx / name);
     ASSERT_NO_THROW(read_bytes("whole", bytes));
@@ -63,8 +63,8 @@ TEST(FbxBroken, AFileCutAnywhereIsRefused) {
   }
 }
 
-// Every seventh byte that is changed gives a motion or an Error, whatever it is.
-TEST(FbxBroken, AFileWithAByteChangedDoesNoHarm) {
+// With every seventh byte changed in turn, the result is a motion or an Error.
+TEST(FbxBroken, AFileWithAChangedByteIsHarmless) {
   for (const char* name : {"arm.fbx", "arm_7400.fbx", "arm_7700.fbx"}) {
     const std::string whole = read_file(kWholeFbx / name);
     for (std::size_t at = 0; at < whole.size(); at += 7) {

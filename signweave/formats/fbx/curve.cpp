@@ -11,15 +11,16 @@ double bezier(double p0, double p1, double p2, double p3, double u) noexcept {
   return v * v * v * p0 + 3 * v * v * u * p1 + 3 * v * u * u * p2 + u * u * u * p3;
 }
 
-/// A cubic part at `time` in (0, 1) of its `seconds`: a Bézier curve whose inner points lie on the tangents.
+/// Evaluates a cubic part of duration `seconds` at `time` in (0, 1): a Bézier curve whose inner points lie on the
+/// tangents.
 double cubic_at(const KeyPart& part, double from, double to, double seconds, double time) noexcept {
   const double first = std::clamp(static_cast<double>(part.weight), 1e-4, 0.9999);
   const double last = std::clamp(static_cast<double>(part.next_weight), 1e-4, 0.9999);
-  // Thirds make time even along the curve.
+  // With weights of one third, time is proportional to the curve parameter.
   const bool even = std::abs(first - 1.0 / 3) < 1e-6 && std::abs(last - 1.0 / 3) < 1e-6;
   double low = even ? time : 0;
   double high = even ? time : 1;
-  // Time grows along the curve, as its inner points lie between the keys: halving finds where it is.
+  // Time increases along the curve, because its inner points lie between the keys, so bisection finds the parameter.
   for (int i = 0; !even && i < 52; ++i) {
     const double middle = (low + high) / 2;
     (bezier(0, first, 1 - last, 1, middle) < time ? low : high) = middle;

@@ -22,7 +22,7 @@ constexpr std::int64_t kTensionContinuityBias = 0x200;
 constexpr std::int64_t kWeighted = 0x0100'0000;
 constexpr std::int64_t kNextWeighted = 0x0200'0000;
 
-/// What KeyAttrFlags and four numbers of KeyAttrDataFloat say of what follows a key.
+/// The interpolation after a key, as given by KeyAttrFlags and four numbers of KeyAttrDataFloat.
 KeyPart part_of(const Source& source, const Record& record, std::int64_t flags, const std::uint32_t* data) {
   KeyPart part;
   if ((flags & kConstant) != 0) {
@@ -41,13 +41,13 @@ KeyPart part_of(const Source& source, const Record& record, std::int64_t flags, 
     source.fail(record.place, fmt::format("KeyAttrDataFloat holds a slope of {} and {}; export it again", part.slope,
                                           part.next_slope));
   }
-  // Weights are ten-thousandths, two in one number.
+  // Weights are in ten-thousandths, two packed into one number.
   if ((flags & kWeighted) != 0) part.weight = static_cast<float>(data[2] & 0xFFFF) / 9999.0f;
   if ((flags & kNextWeighted) != 0) part.next_weight = static_cast<float>(data[2] >> 16) / 9999.0f;
   return part;
 }
 
-/// What lies between the keys: a row of flags and data each, and how many keys in turn it stands for.
+/// Reads the interpolation between the keys: each row of flags and data applies to a number of successive keys.
 std::vector<KeyPart> parts_of(const Source& source, const Record& record, std::size_t keys, Arrays& arrays) {
   const Record* flags_record = record.child("KeyAttrFlags");
   const Record* counts_record = record.child("KeyAttrRefCount");
@@ -72,7 +72,7 @@ std::vector<KeyPart> parts_of(const Source& source, const Record& record, std::s
   }
   if (parts.size() != keys) {
     source.fail(counts_record->place,
-                fmt::format("KeyAttrRefCount stands for {} keys of {}; export it again", parts.size(), keys));
+                fmt::format("KeyAttrRefCount covers {} keys of {}; export it again", parts.size(), keys));
   }
   return parts;
 }
@@ -90,7 +90,7 @@ Curve read_curve(const Source& source, const Record& record, Arrays& arrays) {
   }
   for (std::size_t i = 0; i < curve.ticks.size(); ++i) {
     if (curve.ticks[i] < -kMostTicks || curve.ticks[i] > kMostTicks) {
-      source.fail(times->place, "a key more than 54 hours from the begin; export it again");
+      source.fail(times->place, "a key more than 54 hours from the beginning; export it again");
     }
     if (i > 0 && curve.ticks[i] <= curve.ticks[i - 1]) {
       source.fail(times->place, fmt::format("key {} is not after the key before; export it again", i + 1));

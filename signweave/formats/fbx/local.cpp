@@ -7,12 +7,12 @@
 namespace signweave::fbx {
 
 Eigen::Quaterniond euler(const Eigen::Vector3d& degrees, int order) {
-  // The axis that turns first stands first here and last in the product.
+  // The axis that turns first is first here and last in the product.
   constexpr std::array<std::array<int, 3>, 6> kOrders{
       {{0, 1, 2}, {0, 2, 1}, {1, 2, 0}, {1, 0, 2}, {2, 0, 1}, {2, 1, 0}}};
   Eigen::Quaterniond result = Eigen::Quaterniond::Identity();
   for (const int axis : kOrders[static_cast<std::size_t>(order)]) {
-    // Whole turns go first: a quaternion of many of them has no digits left.
+    // Full turns are removed first: a quaternion of many turns would have no significant digits left.
     const double angle = std::remainder(degrees[axis], 720.0) * std::numbers::pi / 180;
     result = Eigen::AngleAxisd(angle, Eigen::Vector3d::Unit(axis)) * result;
   }
@@ -50,7 +50,7 @@ Space::Space(const Settings& settings) {
 }
 
 Eigen::Quaterniond Space::inside(const Eigen::Quaterniond& rotation) const noexcept {
-  // A mirror along z turns rotations about x and y the other way round.
+  // A reflection along z reverses rotations about x and y.
   return mirrored_ ? Eigen::Quaterniond(rotation.w(), -rotation.x(), -rotation.y(), rotation.z()) : rotation;
 }
 

@@ -4,12 +4,12 @@
 
 #include "signweave/formats/fbx/scene.h"
 
-/// FBX' transform of a node against its parent:
+/// FBX' transform of a node relative to its parent:
 ///   T · Roff · Rp · Rpre · R · Rpost⁻¹ · Rp⁻¹ · Soff · Sp · S · Sp⁻¹
-/// The geometric transforms stand after it and move meshes only, so they are no part of it.
+/// The geometric transforms follow it and move only meshes, so they are not part of it.
 namespace signweave::fbx {
 
-/// What of it moves bones: a turn, a place, and a scale that passes on to the children.
+/// The part of it that moves bones: a rotation, a translation, and a scale that is inherited by the children.
 struct Local {
   Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();
   Eigen::Vector3d translation = Eigen::Vector3d::Zero();  ///< file units
@@ -23,20 +23,20 @@ Eigen::Quaterniond euler(const Eigen::Vector3d& degrees, int order);
 Local local_of(const Node& node, const Eigen::Vector3d& translation, const Eigen::Vector3d& rotation,
                const Eigen::Vector3d& scaling);
 
-/// Whether a scale is the same along all axes, up to what exporters round (1e-5), and does not mirror.
+/// Whether a scale is the same along all axes, within the rounding of exporters (1e-5), and does not mirror.
 bool is_uniform(const Eigen::Vector3d& scaling) noexcept;
 
-/// Our space from the file's: metres apart, Y up, right-handed. A left-handed file is mirrored first, along its own
-/// last axis, then turned.
+/// Converts from the file's space to ours, except for metres: Y up, right-handed. A left-handed file is first mirrored
+/// along its own last axis, then turned.
 class Space {
  public:
   explicit Space(const Settings& settings);
 
   bool mirrored() const noexcept { return mirrored_; }
-  /// A local rotation or place, mirrored where the file is.
+  /// A local rotation or position, mirrored if the file is.
   Eigen::Quaterniond inside(const Eigen::Quaterniond& rotation) const noexcept;
   Eigen::Vector3d inside(const Eigen::Vector3d& place) const noexcept;
-  /// Turns what hangs from the scene itself.
+  /// The rotation applied to nodes without a parent.
   const Eigen::Quaterniond& turn() const noexcept { return turn_; }
 
  private:

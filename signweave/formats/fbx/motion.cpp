@@ -12,10 +12,10 @@
 namespace signweave::fbx {
 namespace {
 
-/// Below this a bone's length counts as constant, metres.
+/// Below this, in metres, a bone's length counts as constant.
 constexpr float kNoDrift = 1e-6f;
 
-/// One vector per frame, or one for all.
+/// One vector per frame, or one for all frames.
 struct Samples {
   std::array<std::vector<double>, 3> parts;
   Eigen::Vector3d at(std::size_t frame) const {
@@ -43,11 +43,12 @@ Samples samples_of(const Ingredients& from, const Channel* channel, const Eigen:
   return samples;
 }
 
-/// A joint over all frames; one element where it does not change.
+/// A joint over all frames; one element if it does not change.
 struct JointFrames {
   std::vector<Eigen::Quaternionf> rotations;
   std::vector<Eigen::Vector3f> translations;  ///< metres
-  std::vector<double> passed_on;  ///< the scale of all above and its own: lengths of the children are multiplied by it
+  std::vector<double>
+      passed_on;  ///< the product of its own scale and those above; the lengths of the children are multiplied by it
   std::vector<double> own_scale;
 };
 
@@ -122,8 +123,8 @@ class MotionMaker {
     }
     const bool silent = !node.rotation_active &&
                         (node.rotation_order != 0 || !node.pre_rotation.isZero() || !node.post_rotation.isZero());
-    if (silent && !told_inactive_) {
-      told_inactive_ = true;
+    if (silent && !inactive_reported_) {
+      inactive_reported_ = true;
       notices_.push_back({from_.source.name, fmt::format("node '{}' has a pre- or post-rotation or an order that its "
                                                          "RotationActive turns off; left out, here and in others",
                                                          printable(node.name))});
@@ -152,13 +153,13 @@ class MotionMaker {
         place = space_.turn() * place;
       }
       if (!(place.cwiseAbs().maxCoeff() <= 1e9)) {
-        from_.source.fail(node.place, fmt::format("node '{}' stands farther than 1e+09 metres from its parent",
-                                                  printable(node.name)));
+        from_.source.fail(node.place,
+                          fmt::format("node '{}' is farther than 1e+09 metres from its parent", printable(node.name)));
       }
       out.translations.push_back(place.cast<float>());
       if (turns || frame == 0) out.rotations.push_back(turn.normalized().cast<float>());
       if (!scales && frame > 0) continue;
-      // A node of InheritType Rrs takes everything from above but its parent's own scale.
+      // A node of InheritType Rrs inherits everything from above except its parent's own scale.
       const double inherited = node.inherit == 2 && parent != nullptr ? above / at(parent->own_scale, frame) : above;
       const double own = carries ? scale.sum() / 3 : 1;
       out.own_scale.push_back(own);
@@ -199,7 +200,7 @@ class MotionMaker {
       if (is_new) {
         tracks.push_back(std::move(track));
       } else if (tracks[place->second].values != track.values) {
-        notices_.push_back({from_.source.name, fmt::format("two blend shapes are called '{}' and move otherwise; the "
+        notices_.push_back({from_.source.name, fmt::format("two blend shapes are called '{}' and move differently; the "
                                                            "first is kept",
                                                            printable(track.name))});
       }
@@ -212,7 +213,7 @@ class MotionMaker {
   Space space_;
   std::vector<JointIndex> joint_of_;
   std::map<std::pair<std::size_t, Animated>, const Channel*> channels_;
-  bool told_inactive_ = false;
+  bool inactive_reported_ = false;
 };
 
 }  // namespace

@@ -12,7 +12,7 @@
 /// A take as a motion.
 namespace signweave::fbx {
 
-/// What a motion is made of, borrowed.
+/// The inputs of motion_of, borrowed.
 struct Ingredients {
   const Source& source;
   const Scene& scene;
@@ -24,7 +24,7 @@ struct Ingredients {
   const std::function<void(double)>& progress;
 };
 
-/// Poses and tracks of every frame. Throws Error{bad_input} where a scale stretches or mirrors what hangs from it.
+/// Poses and tracks of every frame. Throws Error{bad_input} if a scale stretches or mirrors the nodes below it.
 Motion motion_of(const Ingredients& from, std::vector<Notice>& notices);
 
 /// The curves that a take uses.

@@ -19,7 +19,7 @@ using test::kSecond;
 using test::TestFile;
 using test::TestNode;
 
-/// A number of at most `most` with three decimals, so that text and file hold the same.
+/// A number of at most `most` with three decimals, so that text and file hold the same value.
 double some_number(int most) {
   return *rc::gen::inRange(-most * 1000, most * 1000 + 1) / 1000.0;
 }
@@ -27,7 +27,7 @@ Vector3d some_vector(int most) {
   return {some_number(most), some_number(most), some_number(most)};
 }
 
-/// The formula's own matrix of a node, by matrices as FBX' documentation has it: nothing of the reader is used.
+/// The matrix of a node according to the formula in FBX' documentation, independent of the reader.
 struct Formula {
   Vector3d pre = Vector3d::Zero(), post = Vector3d::Zero(), rotation_offset = Vector3d::Zero(),
            rotation_pivot = Vector3d::Zero(), scaling_offset = Vector3d::Zero(), scaling_pivot = Vector3d::Zero();
@@ -37,7 +37,7 @@ struct Formula {
     const auto about = [&](int axis) {
       return Affine3d(Eigen::AngleAxisd(degrees[axis] * std::numbers::pi / 180, Vector3d::Unit(axis)));
     };
-    switch (order) {  // matrices from the left to the right turn last to first
+    switch (order) {  // the leftmost matrix turns last
       case 0:
         return about(2) * about(1) * about(0);
       case 1:
@@ -92,7 +92,7 @@ Vector3d vector_at(const TestNode& node, std::size_t kind, std::int64_t tick) {
   return result;
 }
 
-/// Keys at some frames of 30 a second from a begin, perhaps on some axes only.
+/// Keys at some frames, at 30 a second from `begin`, possibly on some axes only.
 void add_some_keys(TestNode& node, std::size_t kind, std::int64_t begin, int frames, int most) {
   for (test::TestCurve& curve : node.curves[kind]) {
     if (*rc::gen::inRange(0, 4) == 0) continue;
@@ -140,14 +140,14 @@ Case some_case() {
     made.file.nodes.push_back(std::move(node));
     made.formulas.push_back(formula);
   }
-  // A take needs a key at its begin and its end.
+  // A take needs a key at its beginning and at its end.
   made.file.nodes[0].curves[1][0] = {.ticks = {made.begin, made.begin + (made.frames - 1) * (kSecond / 30)},
                                      .values = {some_number(300), some_number(300)},
                                      .attributes = {}};
   return made;
 }
 
-// The whole transform at every frame, against the formula's matrices multiplied down the tree.
+// Compares the whole transform at every frame with the formula's matrices, multiplied down the tree.
 RC_GTEST_PROP(Fbx, EveryBoneStandsAndTurnsAsTheFormulaSays, ()) {
   const Case made = some_case();
   const double metres = *rc::gen::element(1.0, 2.54, 100.0);
@@ -176,7 +176,8 @@ RC_GTEST_PROP(Fbx, EveryBoneStandsAndTurnsAsTheFormulaSays, ()) {
     for (std::size_t joint = 0; joint < read.motion.skeleton().joint_count(); ++joint) {
       const Affine3d& global = expected.at(read.motion.skeleton().joints()[joint].name);
       const Vector3d place = global.translation() * (metres / 100);
-      // A hundredth of a millimetre in a body of two metres; of larger trees what a float holds of them.
+      // A hundredth of a millimetre in a body of two metres; for larger trees proportionally more, for the precision of
+      // a float.
       const double most = 1e-5 * std::max(1.0, size / 2);
       RC_ASSERT((pose.positions[joint].cast<double>() - place).norm() < most);
       const Eigen::Quaterniond turn(Eigen::Matrix3d(global.linear() / std::cbrt(global.linear().determinant())));
@@ -186,7 +187,7 @@ RC_GTEST_PROP(Fbx, EveryBoneStandsAndTurnsAsTheFormulaSays, ()) {
   }
 }
 
-// Whatever axes a file names, its bones stand where those axes put them.
+// Whatever axes a file names, its bones are where those axes put them.
 RC_GTEST_PROP(Fbx, AxesOfAnyKindAreTurnedToOurs, ()) {
   const Case made = some_case();
   std::array<int, 3> axes{0, 1, 2};

@@ -21,14 +21,14 @@ namespace {
 void check_options(const ReadOptions& options) {
   if (options.unit && !(*options.unit > 0 && *options.unit < 1e6)) {
     throw Error(ErrorCode::bad_input,
-                fmt::format("{} is no unit; it is the metres of one unit, such as 0.01", *options.unit));
+                fmt::format("{} is not a unit; give the metres of one unit, such as 0.01", *options.unit));
   }
   if (options.rate && (options.rate->numerator <= 0 || options.rate->denominator <= 0)) {
-    throw Error(ErrorCode::bad_input, "a frame rate is above 0");
+    throw Error(ErrorCode::bad_input, "a frame rate must be above 0");
   }
 }
 
-/// Visibility, sizes, what a program keeps for itself.
+/// True for visibility, sizes and other properties that do not move bones.
 bool moves_nothing(const Channel& channel) noexcept {
   if (channel.what != Animated::other) return false;
   const std::string& name = channel.property;
@@ -37,7 +37,7 @@ bool moves_nothing(const Channel& channel) noexcept {
   return !moves || name.rfind("Geometric", 0) == 0;
 }
 
-/// What a take does to these bones: the channels of others, and of what is no transform, are left out.
+/// Removes the channels of a take that belong to other nodes or are not transforms.
 Take of_bones(Take take, const std::vector<std::size_t>& bones, std::size_t nodes) {
   std::vector<bool> is_bone(nodes);
   for (const std::size_t bone : bones) is_bone[bone] = true;
@@ -60,7 +60,7 @@ std::string names_of(const std::vector<Take>& takes, std::size_t without) {
   return names;
 }
 
-/// Which take is meant, of those that hold only what the bones do.
+/// Selects the requested take, from those reduced to the motion of the bones.
 std::size_t take_of(const Source& source, const std::vector<Take>& takes, const std::string& wanted,
                     std::vector<Notice>& notices) {
   if (takes.empty()) {
@@ -104,7 +104,7 @@ std::size_t take_of(const Source& source, const std::vector<Take>& takes, const 
   return take;
 }
 
-/// Fails where the take says what cannot be told by turning and moving bones.
+/// Fails if rotating and moving bones cannot represent the take.
 void check_channels(const Source& source, const Scene& scene, const Take& take) {
   std::size_t layer = std::numeric_limits<std::size_t>::max();
   for (const Channel& channel : take.channels) {
@@ -120,7 +120,7 @@ void check_channels(const Source& source, const Scene& scene, const Take& take) 
   }
 }
 
-void tell_space(const Source& source, const Settings& settings, const ReadOptions& options,
+void note_space(const Source& source, const Settings& settings, const ReadOptions& options,
                 std::vector<Notice>& notices) {
   if (!settings.has_axes) notices.push_back({source.name, "it names no up axis; Y up assumed"});
   if (!settings.has_unit && !options.unit) notices.push_back({source.name, "it names no unit; centimetres assumed"});
@@ -145,7 +145,7 @@ File read(Source& source, const ReadOptions& options) {
   const Take& take = takes[take_of(source, takes, options.take, file.notices)];
   file.take = take.name;
   check_channels(source, scene, take);
-  tell_space(source, scene.settings, options, file.notices);
+  note_space(source, scene.settings, options, file.notices);
 
   const Curves curves = read_curves(source, records_of(take));
   const Frames frames = frames_of(source, scene, take, keys_of(take, curves), options.rate, bones.size(), file.notices);
@@ -167,7 +167,7 @@ File read(Source& source, const ReadOptions& options) {
 }  // namespace
 
 File read(const std::filesystem::path& path, const ReadOptions& options) {
-  // Read whole: the tree borrows from it.
+  // Read as a whole, because the tree borrows from it.
   const std::string bytes = read_file(path, std::size_t{1} << 31);
   return read_bytes(path.string(), bytes, options);
 }

@@ -34,7 +34,7 @@ std::string fbx_fault(const std::string& text, const ReadOptions& options = {}) 
   return "no fault";
 }
 
-/// A hand on an arm; the arm turns by 10 degrees about z from frame 0 to 1 of 30 a second.
+/// A hand on an arm; the arm turns by 10 degrees about z from frame 0 to 1, at 30 frames a second.
 TestFile two_bones() {
   TestFile file;
   TestNode arm{.name = "Arm"};
@@ -52,11 +52,11 @@ std::vector<std::string> texts_of_notices(const std::vector<Notice>& notices) {
   return texts;
 }
 
-// The rig scales by 2. The shoulder stands at 2 * (10, 50, 0) cm and its pre-rotation turns x to y, so the elbow is 2 *
-// 15 cm above it. The elbow turns by its angle about z, then back by its post-rotation of 90 degrees about x, which
-// takes the hand's y to -z (turned in the shoulder's space: z stays z): the hand is 20 cm behind the elbow, whatever
-// the angle.
-TEST(FbxRead, BonesStandWhereTheHandComputedPlacesAre) {
+// The rig scales by 2. The shoulder is at 2 * (10, 50, 0) cm and its pre-rotation turns x to y, so the elbow is 2 * 15
+// cm above it. The elbow turns by its angle about z, then back by its post-rotation of 90 degrees about x, which takes
+// the hand's y to -z (turned in the shoulder's space: z stays z): the hand is 20 cm behind the elbow, whatever the
+// angle.
+TEST(FbxRead, BonesAreAtTheHandComputedPositions) {
   const File file = read(kArm);
   ASSERT_EQ(file.motion.frame_count(), 3);
   EXPECT_EQ(file.take, "Take 001");
@@ -73,13 +73,13 @@ TEST(FbxRead, BonesStandWhereTheHandComputedPlacesAre) {
   // In the last frame the elbow has turned by 90 degrees: its x, first up, points left.
   const ModelPose last = to_model_space(skeleton, file.motion.pose(2));
   expect_same_point(last.rotations[2] * Eigen::Vector3f::UnitX(), {-1, 0, 0});
-  // Nothing is stretched over time, so every length is an offset.
+  // No length changes over time, so every length is an offset.
   EXPECT_EQ(skeleton.translation_count(), 0u);
   ASSERT_EQ(file.motion.tracks().size(), 1u);
   EXPECT_EQ(file.motion.tracks()[0], (ScalarTrack{"jawOpen", {0.0f, 0.5f, 1.0f}}));
 }
 
-// arm_7400.fbx and arm_7700.fbx are arm.fbx in binary, the second with places of 64 bits and compressed arrays.
+// arm_7400.fbx and arm_7700.fbx are arm.fbx in binary, the second with 64-bit positions and compressed arrays.
 TEST(FbxRead, TextAndBinaryAreTheSameMotion) {
   const File text = read(kArm);
   for (const char* name : {"arm_7400.fbx", "arm_7700.fbx"}) {
@@ -101,7 +101,7 @@ TEST(FbxRead, OneTakeIsReadAndTheOthersAreNamed) {
   EXPECT_TRUE(second.motion.tracks().empty());
 }
 
-TEST(FbxRead, ATakeThatIsNotThereIsNotFound) {
+TEST(FbxRead, AMissingTakeIsNotFound) {
   for (const char* take : {"3", "0", "-1", "wav"}) {
     try {
       read(kArm, {.take = take});
@@ -119,10 +119,10 @@ TEST(FbxRead, TheUnitOfTheFileAndThatOfTheUserScaleLengths) {
   const std::string text = test::text_of(file);
   EXPECT_FLOAT_EQ(read_bytes("made", text).motion.skeleton().joint(1).offset.x(), 0.508f);
   EXPECT_FLOAT_EQ(read_bytes("made", text, {.take = "", .unit = 0.5}).motion.skeleton().joint(1).offset.x(), 10.0f);
-  EXPECT_NE(fbx_fault(text, {.take = "", .unit = -1.0}).find("is no unit"), std::string::npos);
+  EXPECT_NE(fbx_fault(text, {.take = "", .unit = -1.0}).find("is not a unit"), std::string::npos);
 }
 
-TEST(FbxRead, ZUpIsTurnedToYUpAndTold) {
+TEST(FbxRead, ZUpIsTurnedToYUpAndReported) {
   TestFile file = two_bones();
   file.settings = TestFile::axes(2, 1, 1, -1, 0, 1) + TestFile::unit(1) + TestFile::time_mode(6);
   file.nodes[0].translation = Vector3d(1, 2, 3);
@@ -150,7 +150,7 @@ TEST(FbxRead, TheFrameRateIsTheFilesElseThatOfItsKeys) {
   EXPECT_EQ(wanted.motion.rate(), (FrameRate{50, 1}));
 }
 
-/// How far the arm of two_bones has turned about z in each frame of 30 a second, degrees.
+/// The angle about z of the arm of two_bones in each frame at 30 frames a second, in degrees.
 std::vector<double> angles_of(const TestCurve& curve) {
   TestFile file = two_bones();
   file.nodes[0].curves[1][2] = curve;
@@ -170,7 +170,7 @@ std::string attributes(int flags, const char* data) {
 }
 
 // Keys 0 and 40 four frames apart.
-TEST(FbxRead, BetweenKeysTheCurveIsAsTheKeysSay) {
+TEST(FbxRead, BetweenKeysTheCurveFollowsTheKeys) {
   const auto angles = [](const std::string& text) {
     return angles_of({.ticks = {0, 4 * (kSecond / 30)}, .values = {0, 40}, .attributes = text});
   };
@@ -185,17 +185,17 @@ TEST(FbxRead, BetweenKeysTheCurveIsAsTheKeysSay) {
   EXPECT_THAT(angles(attributes(0x102, "0,0,0,0")), are(0, 40, 40, 40, 40));
   // Level tangents: 40 (3 u² - 2 u³).
   EXPECT_THAT(angles(attributes(0x408, "0,0,0,0")), are(0, 6.25, 20, 33.75, 40));
-  // A slope of 300 a second at the begin, which is 40 over the four frames: 40 (u³ - 2 u² + u) more.
+  // A slope of 300 a second at the beginning, which is 40 over the four frames: adds 40 (u³ - 2 u² + u).
   EXPECT_THAT(angles(attributes(0x408, "300,0,0,0")), are(0, 11.875, 25, 35.625, 40));
-  // Both weights a third, in ten-thousandths: as without weights. 3333 * 65536 + 3333.
+  // Both weights are a third, in ten-thousandths, which equals no weights. 3333 * 65536 + 3333.
   EXPECT_THAT(angles(attributes(0x3000408, "300,0,218434821,0")), are(0, 11.875, 25, 35.625, 40));
-  // Long level tangents: still slower at the begin. At u = 1/2 the middle, by symmetry.
+  // Long level tangents: even slower at the beginning. At u = 1/2 it is in the middle, by symmetry.
   const std::vector<double> heavy = angles(attributes(0x3000408, "0,0,524296000,0"));
   EXPECT_LT(heavy[1], 5.5);
   EXPECT_NEAR(heavy[2], 20, 1e-3);
 }
 
-TEST(FbxRead, TheTakesRangeIsReadAndKeysOutsideOfItStillBendIt) {
+TEST(FbxRead, TheTakesRangeIsReadAndKeysOutsideStillShapeIt) {
   TestFile file = two_bones();
   file.nodes[0].curves[1][2] = {.ticks = {0, 4 * (kSecond / 30)}, .values = {0, 40}, .attributes = {}};
   file.stack = TestFile::whole("LocalStart", kSecond / 30) + TestFile::whole("LocalStop", 3 * (kSecond / 30));
@@ -207,7 +207,7 @@ TEST(FbxRead, TheTakesRangeIsReadAndKeysOutsideOfItStillBendIt) {
               testing::Contains(testing::HasSubstr("keys before its start or after its stop")));
 }
 
-TEST(FbxRead, ABoneWhoseLengthMovesIsTranslatedAndOthersAreNot) {
+TEST(FbxRead, OnlyABoneWhoseLengthChangesIsTranslated) {
   TestFile file = two_bones();
   file.nodes[1].curves[0][0] = {.ticks = {0, kSecond / 30}, .values = {20, 25}, .attributes = {}};
   const File read = read_bytes("made", test::text_of(file));
@@ -216,8 +216,8 @@ TEST(FbxRead, ABoneWhoseLengthMovesIsTranslatedAndOthersAreNot) {
   expect_same_point(read.motion.pose(1).translations[0], {0.25f, 0, 0});
 }
 
-// The value of a part without a curve is the curve node's, else the node's own: never 0.
-TEST(FbxRead, PartsWithoutACurveKeepTheirOwnValue) {
+// The value of a component without a curve is the curve node's, or else the node's own: never 0.
+TEST(FbxRead, ComponentsWithoutACurveKeepTheirOwnValue) {
   TestFile file = two_bones();
   file.nodes[0].curves[0][1] = {.ticks = {0, kSecond / 30}, .values = {100, 101}, .attributes = {}};
   file.nodes[0].translation = Vector3d(7, 100, 9);
@@ -225,7 +225,7 @@ TEST(FbxRead, PartsWithoutACurveKeepTheirOwnValue) {
   expect_same_point(read.motion.pose(1).translations[0], {0.07f, 1.01f, 0.09f});
 }
 
-TEST(FbxRead, NodesOfOneNameStayTwo) {
+TEST(FbxRead, NodesWithOneNameStayDistinct) {
   TestFile file = two_bones();
   file.nodes[1].name = "Arm";
   file.nodes[1].curves[1][0] = {.ticks = {0, kSecond / 30}, .values = {0, 50}, .attributes = {}};
@@ -247,11 +247,11 @@ TEST(FbxRead, AScaleThatStretchesBonesIsRefusedWithItsNode) {
   file.nodes[0].scaling = -Vector3d::Ones();
   EXPECT_THAT(fbx_fault(test::text_of(file)), testing::HasSubstr("mirrored"));
   file.nodes[0].scaling = Vector3d::Ones();
-  file.nodes[1].scaling = Vector3d(1, 2, 3);  // nothing hangs from the hand
+  file.nodes[1].scaling = Vector3d(1, 2, 3);  // the hand has no children
   EXPECT_EQ(fbx_fault(test::text_of(file)), "no fault");
 }
 
-TEST(FbxRead, AnimatedUniformScaleIsInTheLengths) {
+TEST(FbxRead, AnimatedUniformScaleChangesTheLengths) {
   TestFile file = two_bones();
   for (TestCurve& curve : file.nodes[0].curves[2])
     curve = {.ticks = {0, kSecond / 30}, .values = {1, 3}, .attributes = {}};
@@ -260,8 +260,9 @@ TEST(FbxRead, AnimatedUniformScaleIsInTheLengths) {
   expect_same_point(read.motion.pose(1).translations[0], {0.6f, 0, 0});
 }
 
-// InheritType 2: what hangs from the middle does not take the middle's parent's own scale, its place does.
-TEST(FbxRead, ANodeThatDoesNotInheritItsParentsScalePassesNoneOn) {
+// InheritType 2: the children of the middle node do not inherit the scale of the middle's parent, but the position of
+// the middle node does.
+TEST(FbxRead, ANodeThatDoesNotInheritItsParentsScaleDoesNotPassItOn) {
   TestFile file = two_bones();
   file.nodes[0].scaling = Vector3d::Constant(2);
   file.nodes[1].properties = TestFile::whole("InheritType", 2);
@@ -287,7 +288,7 @@ TEST(FbxRead, OfSeveralTreesTheLargestIsReadAndTheOthersAreNamed) {
   EXPECT_TRUE(same_bits(read_bytes("made", test::text_of(file)).motion, read.motion));
 }
 
-TEST(FbxRead, NullsAreBonesOnlyWhereNothingElseIs) {
+TEST(FbxRead, NullsAreBonesOnlyWithoutOtherBones) {
   TestFile file = two_bones();
   TestNode marker{.name = "Marker", .type = "Null", .parent = 1};
   file.nodes.push_back(marker);
@@ -296,10 +297,10 @@ TEST(FbxRead, NullsAreBonesOnlyWhereNothingElseIs) {
   const File nulls = read_bytes("made", test::text_of(file));
   EXPECT_EQ(nulls.motion.skeleton().joint_count(), 3u);
   EXPECT_THAT(texts_of_notices(nulls.notices),
-              testing::ElementsAre(testing::HasSubstr("Null nodes are taken for bones")));
+              testing::ElementsAre(testing::HasSubstr("Null nodes are used as bones")));
 }
 
-TEST(FbxRead, InactivePreRotationIsLeftOutAndTold) {
+TEST(FbxRead, InactivePreRotationIsLeftOutAndReported) {
   TestFile file = two_bones();
   file.nodes[0].properties = TestFile::vector("PreRotation", Vector3d(90, 0, 0));
   const File read = read_bytes("made", test::text_of(file));
@@ -307,7 +308,7 @@ TEST(FbxRead, InactivePreRotationIsLeftOutAndTold) {
   EXPECT_THAT(texts_of_notices(read.notices), testing::ElementsAre(testing::HasSubstr("RotationActive turns off")));
 }
 
-TEST(FbxRead, ProgressGoesUpToOneAndMayCancel) {
+TEST(FbxRead, ProgressRisesToOneAndMayCancel) {
   std::vector<double> seen;
   read_bytes("made", test::text_of(two_bones()), {.take = "", .progress = [&](double part) { seen.push_back(part); }});
   ASSERT_FALSE(seen.empty());

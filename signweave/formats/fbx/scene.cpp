@@ -12,10 +12,10 @@
 namespace signweave::fbx {
 namespace {
 
-/// The properties of a template by name: every node asks for them, so they are not looked for again each time.
+/// The properties of a template by name: every node uses them, so they are indexed once.
 using Template = std::unordered_map<std::string_view, const Record*>;
 
-/// A property of an object, else of its kind's template.
+/// Properties of an object, with its type's template as fallback.
 struct Properties {
   const Source& source;
   const Record* own = nullptr;
@@ -57,7 +57,7 @@ struct Properties {
     return result;
   }
   [[noreturn]] void refuse(const Record& found, double value) const {
-    source.fail(found.place, fmt::format("{} is {}; nothing past 1e+09 is taken for a measurement",
+    source.fail(found.place, fmt::format("{} is {}; values beyond 1e+09 are not accepted as measurements",
                                          printable(found.text(0)), value));
   }
 };
@@ -137,7 +137,7 @@ Settings settings_of(const Source& source, const Record& root) {
   return settings;
 }
 
-/// Fails where a node stands above itself.
+/// Fails if a node is its own ancestor.
 void check_tree(const Source& source, const std::vector<Node>& nodes) {
   std::vector<std::size_t> open;
   std::vector<bool> seen(nodes.size());
@@ -153,7 +153,7 @@ void check_tree(const Source& source, const std::vector<Node>& nodes) {
   const auto unseen = std::find(seen.begin(), seen.end(), false);
   if (unseen == seen.end()) return;
   const Node& node = nodes[static_cast<std::size_t>(unseen - seen.begin())];
-  source.fail(node.place, fmt::format("node '{}' stands above itself; export it again", printable(node.name)));
+  source.fail(node.place, fmt::format("node '{}' is its own ancestor; export it again", printable(node.name)));
 }
 
 }  // namespace
@@ -178,7 +178,7 @@ Scene scene_of(const Source& source, const Record& root) {
   ObjectTable table;
   for (const Record& record : objects->children) {
     if (record.values.empty() || record.values[0].kind != Value::Kind::whole || record.values[0].whole == 0) {
-      source.fail(record.place, fmt::format("{} has no number to be named by", printable(record.name)));
+      source.fail(record.place, fmt::format("{} has no number as its id", printable(record.name)));
     }
     Object object{.record = &record};
     if (record.name == "Model") {
@@ -194,10 +194,10 @@ Scene scene_of(const Source& source, const Record& root) {
     if (link.from->node == kNone || link.to == nullptr || link.to->node == kNone || !link.property.empty()) continue;
     Node& child = scene.nodes[link.from->node];
     if (link.from == link.to) {
-      source.fail(child.place, fmt::format("node '{}' stands above itself; export it again", printable(child.name)));
+      source.fail(child.place, fmt::format("node '{}' is its own ancestor; export it again", printable(child.name)));
     }
     if (child.parent != kNone) {
-      source.fail(child.place, fmt::format("node '{}' hangs from two others; export it again", printable(child.name)));
+      source.fail(child.place, fmt::format("node '{}' has two parents; export it again", printable(child.name)));
     }
     child.parent = link.to->node;
     scene.nodes[link.to->node].children.push_back(link.from->node);

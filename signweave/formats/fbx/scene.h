@@ -9,12 +9,13 @@
 
 #include "signweave/formats/fbx/tree.h"
 
-/// The objects of an FBX file that bones and their animation are made of, with their connections resolved.
+/// The objects of an FBX file that define bones and their animation, with their connections resolved.
 namespace signweave::fbx {
 
 inline constexpr std::size_t kNone = static_cast<std::size_t>(-1);
 
-/// The parts of FBX' transform that a node has besides what is animated; see fbx_local.h. Degrees and file units.
+/// The parts of FBX' transform that a node has in addition to those that are animated; see local.h. Degrees and file
+/// units.
 struct Node {
   std::string name;  ///< as in the file, without "Model::"
   std::string type;  ///< LimbNode, Null, Mesh …
@@ -30,21 +31,21 @@ struct Node {
   Eigen::Vector3d rotation_pivot = Eigen::Vector3d::Zero();
   Eigen::Vector3d scaling_offset = Eigen::Vector3d::Zero();
   Eigen::Vector3d scaling_pivot = Eigen::Vector3d::Zero();
-  int rotation_order = 0;        ///< FBX' number: XYZ, XZY, YZX, YXZ, ZXY, ZYX (the first turns first), spheric
-  bool rotation_active = false;  ///< else order, pre- and post-rotation say nothing
+  int rotation_order = 0;        ///< FBX' number: XYZ, XZY, YZX, YXZ, ZXY, ZYX (the first axis turns first), spheric
+  bool rotation_active = false;  ///< if false, rotation order, pre- and post-rotation are ignored
   int inherit = 1;               ///< FBX' number: RrSs, RSrs, Rrs (without the parent's own scale)
 };
 
 enum class Animated : std::uint8_t { translation, rotation, scaling, other };
 
-/// What animates one property of a node.
+/// The animation of one property of a node.
 struct Channel {
   std::size_t node = kNone;
   Animated what = Animated::other;
   std::string property;
   std::size_t layer = 0;                          ///< of its take
-  std::array<const Record*, 3> curves{};          ///< x, y, z; none where not animated
-  std::array<std::optional<double>, 3> values{};  ///< where there is no curve; the node's own where not given
+  std::array<const Record*, 3> curves{};          ///< x, y, z; null if not animated
+  std::array<std::optional<double>, 3> values{};  ///< used without a curve; if not given, the node's own
 };
 
 /// A blend shape's animation.
@@ -57,7 +58,7 @@ struct Morph {
 struct Take {
   std::string name;
   std::int64_t start = 0;  ///< in FBX' ticks
-  std::int64_t stop = 0;   ///< not after `start`: the file does not tell
+  std::int64_t stop = 0;   ///< not after `start` if the file does not contain it
   std::vector<Channel> channels;
   std::vector<Morph> morphs;
 };
@@ -81,7 +82,7 @@ struct Scene {
 /// The scene of a tree, which must outlive it. Throws as Source::fail does.
 Scene scene_of(const Source& source, const Record& root);
 
-/// The value record of a property in Properties70, or none: its values from the fifth on are the property's.
+/// The value record of a property in Properties70, or null: its values from the fifth on are the property's.
 const Record* property(const Record* object, std::string_view name) noexcept;
 
 }  // namespace signweave::fbx

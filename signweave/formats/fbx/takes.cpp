@@ -11,7 +11,7 @@
 namespace signweave::fbx {
 namespace {
 
-/// What belongs to each object, in the file's order.
+/// The links to each object, in the file's order.
 using Belongings = std::unordered_map<const Object*, std::vector<const Link*>>;
 
 bool is_a(const Object* object, std::string_view kind) noexcept {
@@ -30,7 +30,7 @@ std::size_t component(std::string_view name) noexcept {
   return name == "X" ? 0 : name == "Y" ? 1 : name == "Z" ? 2 : kNone;
 }
 
-/// What a curve node says, whatever it animates.
+/// The contents of a curve node, whatever it animates.
 struct CurveNode {
   std::array<const Record*, 3> curves{};
   std::array<std::optional<double>, 3> values{};
@@ -57,7 +57,7 @@ CurveNode curve_node_of(const Source& source, const Record& record, const std::v
     const double number = value->number(4, 0);
     if (!(std::abs(number) <= 1e9)) {
       source.fail(value->place,
-                  fmt::format("{} is {}; nothing past 1e+09 is taken for a measurement", kNames[i], number));
+                  fmt::format("{} is {}; values beyond 1e+09 are not accepted as measurements", kNames[i], number));
     }
     node.values[i] = number;
   }
@@ -101,11 +101,11 @@ Links links_of(const Source& source, const Record& root, const ObjectTable& tabl
     const std::string_view kind = one.text(0);
     if (one.name != "C" || (kind != "OO" && kind != "OP")) continue;
     if (one.values.size() < 3 || one.values[1].kind != Value::Kind::whole || one.values[2].kind != Value::Kind::whole) {
-      source.fail(one.place, "a connection names two objects by their numbers");
+      source.fail(one.place, "a connection must name two objects by their numbers");
     }
     const Object* from = table.find(one.values[1].whole);
     const Object* to = table.find(one.values[2].whole);
-    // What is not in the table (meshes, materials …) was passed over; 0 is the scene.
+    // Objects that are not in the table (meshes, materials …) were skipped; 0 is the scene.
     if (from == nullptr || (to == nullptr && one.values[2].whole != 0)) continue;
     links.push_back({.from = from, .to = to, .property = kind == "OP" ? one.text(3) : std::string_view()});
   }
@@ -124,7 +124,8 @@ std::vector<Take> takes_of(const Source& source, const Record& objects, const Ob
     const auto found = which.find(object);
     return found == which.end() ? none : found->second;
   };
-  // Each layer belongs to one take and each curve node to one layer: else a small file could name many animations.
+  // Each layer belongs to one take and each curve node to one layer: otherwise a small file could define very many
+  // animations.
   std::unordered_set<const Object*> seen;
   const auto once = [&](const Object* object) {
     if (seen.insert(object).second) return;

@@ -23,7 +23,7 @@ struct TestNode {
   std::string name;
   std::string type = "LimbNode";
   int parent = -1;
-  std::string properties;  ///< lines of Properties70, besides those below
+  std::string properties;  ///< lines of Properties70, in addition to those below
   Eigen::Vector3d translation = Eigen::Vector3d::Zero();
   Eigen::Vector3d rotation = Eigen::Vector3d::Zero();
   Eigen::Vector3d scaling = Eigen::Vector3d::Ones();
@@ -34,7 +34,7 @@ struct TestFile {
   std::vector<TestNode> nodes;
   std::string settings = axes(1, 1, 2, 1, 0, 1) + unit(1) + time_mode(6);
   std::string stack;         ///< lines of the stack's Properties70
-  std::string more_objects;  ///< beside the nodes and take 1
+  std::string more_objects;  ///< in addition to the nodes and take 1
   std::string more_links;
 
   static std::string number(const char* name, double value) {

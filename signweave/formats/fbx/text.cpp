@@ -58,7 +58,8 @@ class TextTreeReader {
   }
 
   void count_one() {
-    if (++values_ > kMostValues) source_.fail(at_, "more than 4 million values beside meshes; this is no animation");
+    if (++values_ > kMostValues)
+      source_.fail(at_, "more than 4 million values besides meshes; this is not an animation");
   }
 
   Value quoted() {
@@ -81,7 +82,7 @@ class TextTreeReader {
     }
     const bool starts_like_number =
         token[0] == '-' || token[0] == '+' || token[0] == '.' || (token[0] >= '0' && token[0] <= '9');
-    if (!starts_like_number) {  // T, W, Y: flags of records that say nothing about bones
+    if (!starts_like_number) {  // T, W, Y: flags of records that do not concern bones
       value.kind = Value::Kind::text;
       value.bytes = token;
       return value;
@@ -173,7 +174,7 @@ class TextTreeReader {
       skip_block(open);
       return record;
     }
-    if (depth >= kMostDepth) source_.fail(open, "records in records, deeper than 32; export it again");
+    if (depth >= kMostDepth) source_.fail(open, "records nested deeper than 32; export it again");
     for (;;) {
       skip_blanks();
       if (at_ >= text_.size()) unclosed(open, record.name);
@@ -190,7 +191,7 @@ class TextTreeReader {
                                    printable(name)));
   }
 
-  /// Goes past the '}' that belongs to the '{' before.
+  /// Skips past the '}' that closes the preceding '{'.
   void skip_block(std::size_t open) {
     for (int depth = 1; depth > 0; ++at_) {
       skip_blanks();

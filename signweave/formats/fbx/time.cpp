@@ -11,7 +11,7 @@
 namespace signweave::fbx {
 namespace {
 
-// By FBX' number of the mode. Mode 0 is the program's default and says nothing, 14 is the custom rate.
+// Indexed by FBX' number of the mode. Mode 0 is the program's default and gives no rate, 14 is the custom rate.
 constexpr std::array<FrameRate, 19> kTimeModes{{{0, 1},
                                                 {120, 1},
                                                 {100, 1},
@@ -50,8 +50,8 @@ constexpr std::array<FrameRate, 17> kStandardRates{{{24, 1},
                                                     {240, 1},
                                                     {1000, 1}}};
 
-/// Bytes that the frames of any file may take, and that each byte of a file adds: sparse keys make long takes.
-// Of each frame: what is sampled of one joint at a time, and what each joint keeps while it is read.
+/// Bytes that the frames of any file may use, and that each byte of a file adds: sparse keys can make long takes. The
+/// bytes per frame are those of the samples of one joint at a time and those that each joint keeps during reading.
 constexpr double kPlainRoom = 256.0 * (1 << 20);
 constexpr double kRoomPerByte = 64;
 constexpr double kBytesPerFrame = 200;
@@ -90,14 +90,14 @@ Frames frames_of(const Source& source, const Scene& scene, const Take& take, con
   Frames frames;
   if (wanted) {
     frames.rate = *wanted;
-  } else if (const auto told = rate_of(scene.settings)) {
-    frames.rate = *told;
+  } else if (const auto named = rate_of(scene.settings)) {
+    frames.rate = *named;
   } else if (const auto found = rate_of(keys)) {
     frames.rate = *found;
-    notices.push_back({source.name, fmt::format("it names no frame rate; its keys stand at {} frames a second",
-                                                to_string(frames.rate))});
+    notices.push_back(
+        {source.name, fmt::format("it names no frame rate; its keys fit {} frames a second", to_string(frames.rate))});
   } else {
-    notices.push_back({source.name, "it names no frame rate, and its keys stand at none; 30 frames a second assumed"});
+    notices.push_back({source.name, "it names no frame rate, and its keys fit none; 30 frames a second assumed"});
   }
   std::int64_t start = keys.front();
   std::int64_t stop = keys.back();

@@ -8,7 +8,7 @@
 #include "signweave/formats/fbx/curve.h"
 #include "signweave/formats/fbx/scene.h"
 
-/// When the frames of a take are.
+/// The times of the frames of a take.
 namespace signweave::fbx {
 
 struct Frames {
@@ -16,14 +16,14 @@ struct Frames {
   std::vector<std::int64_t> ticks;  ///< [frame], ascending
 };
 
-/// The rate that the settings name, or none.
+/// The rate that the settings name, or nullopt.
 std::optional<FrameRate> rate_of(const Settings& settings);
 
-/// The lowest standard rate at which all these times (ascending) stand, counted from the first, or none.
+/// The lowest standard rate that has a frame at each of these times (ascending), counted from the first, or nullopt.
 std::optional<FrameRate> rate_of(const std::vector<std::int64_t>& ticks);
 
-/// From the take's start to its stop, where the file tells them and keys lie there; else from the first key to the
-/// last. `joints` bounds their number. Notices say what was assumed. Throws Error{bad_input}.
+/// From the take's start to its stop, if the file gives them and there are keys between them; otherwise from the first
+/// key to the last. `joints` bounds their number. Notices say what was assumed. Throws Error{bad_input}.
 Frames frames_of(const Source& source, const Scene& scene, const Take& take, const std::vector<std::int64_t>& keys,
                  std::optional<FrameRate> wanted, std::size_t joints, std::vector<Notice>& notices);
 

@@ -16,7 +16,7 @@ bool looks_like_text(std::string_view bytes) noexcept {
          (head.find("FBX") != std::string_view::npos || head.find("GlobalSettings") != std::string_view::npos);
 }
 
-/// The version, such as 7400; 0 where the file does not tell.
+/// The version, such as 7400; 0 if the file does not contain it.
 std::int64_t version_of(const Source& source, const Record& root) {
   if (source.binary) return root.whole(0, 0);
   const Record* header = root.child("FBXHeaderExtension");
@@ -74,15 +74,16 @@ Record read_tree(Source& source) {
     throw Error(ErrorCode::bad_input, fmt::format("{}: the file is empty; export it again", source.name));
   }
   if (!source.binary && !looks_like_text(source.bytes)) {
-    throw Error(ErrorCode::bad_input,
-                fmt::format("{}: this is no FBX file: neither 'Kaydara FBX Binary' nor the text of one", source.name));
+    throw Error(
+        ErrorCode::bad_input,
+        fmt::format("{}: this is not an FBX file: neither 'Kaydara FBX Binary' nor the text of one", source.name));
   }
   Record root = source.binary ? read_binary_tree(source) : read_text_tree(source);
   const std::int64_t version = version_of(source, root);
   if (version < 7100 || version >= 8000) {
     throw Error(version == 0 ? ErrorCode::bad_input : ErrorCode::unsupported,
                 version == 0
-                    ? fmt::format("{}: it does not tell its version (FBXVersion); export it again", source.name)
+                    ? fmt::format("{}: it does not contain its version (FBXVersion); export it again", source.name)
                     : fmt::format("{}: FBX version {} is not read, but 7100 to 7999; export it as FBX 2014 or later",
                                   source.name, version));
   }

@@ -34,7 +34,7 @@ T raw(const char* at) {
   return value;
 }
 
-/// A number of `Whole` as what it stands for where it is normalised.
+/// The value that a normalized integer of type `Whole` represents.
 template <typename Whole>
 void add_normalised(std::string_view bytes, std::size_t stride, std::size_t parts, std::span<float> out) {
   constexpr auto kMost = static_cast<float>(std::numeric_limits<Whole>::max());
@@ -61,7 +61,7 @@ void add_numbers(int component, std::string_view bytes, std::size_t stride, std:
   }
 }
 
-/// Millions of numbers are looked at, so in a form that becomes vector instructions.
+/// Millions of numbers are checked, so this is written in a form that the compiler vectorizes.
 void require_finite_numbers(const Numbers& numbers, const std::string& place) {
   constexpr std::int32_t kInfinity = 0x7F800000;
   std::int32_t most = 0;
@@ -76,7 +76,7 @@ void require_finite_numbers(const Numbers& numbers, const std::string& place) {
 
 void Budget::spend(std::uint64_t count, std::uint64_t size, const std::string& what) {
   if (size != 0 && count > left_ / size) {
-    throw Error(ErrorCode::unsupported, fmt::format("{}: {} would be larger than what a file of its size may become; "
+    throw Error(ErrorCode::unsupported, fmt::format("{}: {} would be larger than a file of its size may expand to; "
                                                     "export a part of it",
                                                     file_, what));
   }
@@ -104,8 +104,8 @@ std::string_view Accessors::view(std::size_t index, const std::string& place) {
   return unpacked_.emplace(index, unpacked(*packed, bytes, here)).first->second;
 }
 
-Accessors::Layout Accessors::layout_of(std::size_t view_index, std::size_t offset, std::size_t element,
-                                       std::size_t count, const std::string& place) {
+Accessors::ByteLayout Accessors::layout_of(std::size_t view_index, std::size_t offset, std::size_t element,
+                                           std::size_t count, const std::string& place) {
   const std::string_view bytes = view(view_index, place);
   std::size_t stride = content_.model.bufferViews[view_index].byteStride;
   if (content_.packed[view_index]) stride = content_.packed[view_index]->stride;
@@ -131,12 +131,12 @@ void Accessors::add_sparse(const tinygltf::Accessor& accessor, std::size_t parts
   const int component = sparse.indices.componentType;
   if (component != TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE && component != TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT &&
       component != TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT) {
-    refuse_accessor(place, "sparse: indices are no whole numbers of 0 or more");
+    refuse_accessor(place, "sparse: indices are not whole numbers of 0 or more");
   }
-  const Layout at = layout_of(static_cast<std::size_t>(sparse.indices.bufferView),
-                              static_cast<std::size_t>(sparse.indices.byteOffset), component_size(component), count,
-                              place + ", sparse indices");
-  const Layout from =
+  const ByteLayout at = layout_of(static_cast<std::size_t>(sparse.indices.bufferView),
+                                  static_cast<std::size_t>(sparse.indices.byteOffset), component_size(component), count,
+                                  place + ", sparse indices");
+  const ByteLayout from =
       layout_of(static_cast<std::size_t>(sparse.values.bufferView), static_cast<std::size_t>(sparse.values.byteOffset),
                 parts * component_size(accessor.componentType), count, place + ", sparse values");
   budget_.spend(count * parts, sizeof(float), place);
@@ -172,7 +172,7 @@ Numbers Accessors::read(int index, const Wanted& wanted) {
   if (wanted.count && *wanted.count != accessor.count) {
     refuse_accessor(place, fmt::format("{} elements where {} are needed", accessor.count, *wanted.count));
   }
-  const bool look = wanted.type != TINYGLTF_TYPE_MAT4 && !wanted.looked_at_later;
+  const bool look = wanted.type != TINYGLTF_TYPE_MAT4 && !wanted.checked_by_caller;
   if (const auto known = read_.find(index); known != read_.end()) {
     if (look) require_finite_numbers(known->second, place);
     return known->second;
@@ -180,7 +180,7 @@ Numbers Accessors::read(int index, const Wanted& wanted) {
 
   Numbers numbers{.values = {}, .count = accessor.count, .parts = parts};
   const std::size_t element = parts * component_size(accessor.componentType);
-  Layout layout;
+  ByteLayout layout;
   if (accessor.bufferView >= 0) {
     layout =
         layout_of(static_cast<std::size_t>(accessor.bufferView), accessor.byteOffset, element, accessor.count, place);

@@ -13,11 +13,11 @@
 
 namespace signweave::gltf {
 
-/// How many bytes may still be made from a file, so that a small one never becomes gigabytes.
+/// Limits the bytes that may be allocated for a file, so that a small file never expands to gigabytes.
 class Budget {
  public:
   Budget(std::string file, std::uint64_t bytes) : file_(std::move(file)), left_(bytes) {}
-  /// Takes `count` things of `size` bytes each. Throws Error{unsupported} where they are more than what is left.
+  /// Deducts `count` items of `size` bytes each. Throws Error{unsupported} if they exceed what is left.
   void spend(std::uint64_t count, std::uint64_t size, const std::string& what);
 
  private:
@@ -27,37 +27,37 @@ class Budget {
 
 /// The numbers of an accessor.
 struct Numbers {
-  std::span<const float> values;  ///< [element][part], in the file's own bytes where they can be read there
+  std::span<const float> values;  ///< [element][part]; in the file's own bytes if they can be read in place
   std::size_t count = 0;          ///< elements
-  std::size_t parts = 0;          ///< of an element: 3 of a VEC3, 16 of a MAT4 (columns first)
+  std::size_t parts = 0;          ///< per element: 3 for a VEC3, 16 for a MAT4 (column-major)
 };
 
-/// What an accessor must be where it is used.
+/// The requirements on an accessor where it is used.
 struct Wanted {
-  int type = 0;                  ///< as tinygltf numbers them
-  bool normalized_too = false;   ///< not floats alone, but also whole numbers that stand for -1 to 1
-  bool looked_at_later = false;  ///< whether its numbers are finite; else that is looked at here (not of matrices)
-  std::optional<std::size_t> count = {};  ///< how many elements, where that is known
+  int type = 0;                           ///< as tinygltf numbers them
+  bool normalized_too = false;            ///< also accepts normalized integers that represent -1 to 1
+  bool checked_by_caller = false;         ///< that numbers are finite; otherwise checked here (except for matrices)
+  std::optional<std::size_t> count = {};  ///< number of elements, if known
 };
 
-/// Reads accessors, each once, whatever they are: interleaved, sparse, quantised, packed.
+/// Reads each accessor once; interleaved, sparse, quantized and packed ones are supported.
 class Accessors {
  public:
   /// Both must outlive it.
   Accessors(const Content& content, Budget& budget) : content_(content), budget_(budget) {}
 
-  /// The numbers of accessor `index`, which exists; valid as long as this. Throws Error{bad_input} or
-  /// Error{unsupported}, "FILE: accessor 3: …".
+  /// Returns the numbers of accessor `index`, which must exist; valid as long as this object. Throws Error{bad_input}
+  /// or Error{unsupported}, "FILE: accessor 3: …".
   Numbers read(int index, const Wanted& wanted);
 
  private:
-  struct Layout {
+  struct ByteLayout {
     std::string_view bytes;  ///< from the first element on
     std::size_t stride = 0;
   };
   std::string_view view(std::size_t index, const std::string& place);
-  Layout layout_of(std::size_t view_index, std::size_t offset, std::size_t element, std::size_t count,
-                   const std::string& place);
+  ByteLayout layout_of(std::size_t view_index, std::size_t offset, std::size_t element, std::size_t count,
+                       const std::string& place);
   void add_sparse(const tinygltf::Accessor& accessor, std::size_t parts, std::vector<float>& values,
                   const std::string& place);
 

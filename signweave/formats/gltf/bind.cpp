@@ -11,10 +11,10 @@
 namespace signweave::gltf {
 namespace {
 
-constexpr double kBindDegrees = 1;  // less is how exporters round
+constexpr double kBindDegrees = 1;  // a smaller difference is exporters' rounding
 constexpr double kBindMetres = 0.001;
 
-/// How far two poses of one joint in its parent are apart.
+/// The difference between two poses of one joint in its parent.
 struct BindGap {
   double degrees = 0;
   double metres = 0;
@@ -63,7 +63,7 @@ class BindPoses {
       }
       if (above == kNoNode || !bound_[above]) continue;
       const Eigen::Affine3d bind = from_model_[above] * from_model_[node].inverse();
-      // In the parent joint's own units; its size in the model makes metres of them.
+      // In the parent joint's own units; its size in the model converts them to metres.
       const double size = std::cbrt(std::abs(from_model_[above].linear().determinant()));
       const double metres = (bind.translation() - rest.translation()).norm() / size * unit;
       const double degrees = degrees_between(bind.linear(), rest.linear());
@@ -85,9 +85,9 @@ class BindPoses {
 
 }  // namespace
 
-void look_at_bind_poses(const Content& content, const NodeForest& forest, Accessors& accessors, double unit,
-                        std::vector<Notice>& notices) {
-  // Many skins may name the same nodes: without a limit that would take the square of a file's size.
+void check_bind_poses(const Content& content, const NodeForest& forest, Accessors& accessors, double unit,
+                      std::vector<Notice>& notices) {
+  // Many skins may refer to the same nodes: without a limit the time would grow with the square of a file's size.
   constexpr std::size_t kMostSkins = 64;
   constexpr std::size_t kMostBound = 65'535;
   std::size_t seen = 0;
@@ -97,22 +97,22 @@ void look_at_bind_poses(const Content& content, const NodeForest& forest, Access
     if (skin.inverseBindMatrices < 0 || skin.joints.empty()) continue;
     seen += skin.joints.size();
     if (seen > kMostBound) return;
-    const auto tell = [&](const std::string& what) {
+    const auto note = [&](const std::string& what) {
       notices.push_back({content.name, fmt::format("skin {}: {}; only the nodes were read", i, what)});
     };
     const Numbers matrices = accessors.read(skin.inverseBindMatrices, {.type = TINYGLTF_TYPE_MAT4});
     if (matrices.count < skin.joints.size()) {
-      tell(fmt::format("{} bind matrices for {} joints", matrices.count, skin.joints.size()));
+      note(fmt::format("{} bind matrices for {} joints", matrices.count, skin.joints.size()));
       continue;
     }
     const BindPoses poses(content, forest, skin, matrices);
     if (poses.broken() > 0) {
-      tell(fmt::format("{} bind matrices are singular or not finite, such as that of {}", poses.broken(),
+      note(fmt::format("{} bind matrices are singular or not finite, such as that of {}", poses.broken(),
                        node_text(content, poses.first_broken())));
     }
     const BindGap gap = poses.largest_gap(skin, unit);
     if (gap.node != kNoNode && (gap.degrees > kBindDegrees || gap.metres > kBindMetres)) {
-      tell(fmt::format("its bind pose is not that of the nodes, by up to {:.1f} degrees and {:.1f} mm ({})",
+      note(fmt::format("its bind pose is not that of the nodes, by up to {:.1f} degrees and {:.1f} mm ({})",
                        gap.degrees, gap.metres * 1000, node_text(content, gap.node)));
     }
   }

@@ -29,9 +29,9 @@ std::string fault_of_file(const fs::path& path) {
   return "no fault";
 }
 
-// x.expected beside x.glb or x.gltf holds what follows the file's name and a colon in the message; a file without one
+// x.expected next to x.glb or x.gltf holds what follows the file's name and a colon in the message; a file without one
 // fails here.
-TEST(GltfBroken, EveryBrokenFileIsRefusedWithItsPlaceAndItsMend) {
+TEST(GltfBroken, EveryBrokenFileIsRefusedWithItsPlaceAndARepair) {
   std::vector<fs::path> files;
   for (const auto& entry : fs::directory_iterator(kBrokenFolder)) {
     if (is_gltf(entry.path())) files.push_back(entry.path());

@@ -40,7 +40,7 @@ struct Chunks {
 };
 
 Chunks chunks_of(std::string_view file) {
-  const auto broken = [](const char* what) { throw Error(ErrorCode::bad_input, fmt::format("no GLB: {}", what)); };
+  const auto broken = [](const char* what) { throw Error(ErrorCode::bad_input, fmt::format("not a GLB: {}", what)); };
   if (file.size() < 20 || number_at(file, 0) != kMagic) broken("it does not begin with glTF");
   if (number_at(file, 4) != 2) broken("only version 2 is known");
   Chunks chunks;
@@ -53,16 +53,16 @@ Chunks chunks_of(std::string_view file) {
     if (kind == kBytesChunk && chunks.bytes.empty()) chunks.bytes = chunk;
     at += 8 + size;
   }
-  if (chunks.json.empty() || chunks.bytes.empty()) broken("it has not both of its chunks");
+  if (chunks.json.empty() || chunks.bytes.empty()) broken("it lacks one of its two chunks");
   return chunks;
 }
 
-/// Adds keys behind what is in a file.
+/// Appends keys to the contents of a file.
 class Adder {
  public:
   Adder(Json& document, std::string bytes) : document_(document), bytes_(std::move(bytes)) {}
 
-  /// Rows of so many floats each; the accessor's number.
+  /// Appends rows of `width` floats each; returns the accessor's number.
   std::size_t add(const float* values, std::size_t rows, std::size_t width, const char* type, bool with_bounds) {
     bytes_.resize((bytes_.size() + 3) / 4 * 4);
     const std::size_t size = rows * width * sizeof(float);
@@ -128,7 +128,7 @@ void add_joints(Adder& adder, const Motion& motion, const std::map<std::string, 
   }
 }
 
-/// The morph weights of every mesh that has a target of a track's name.
+/// Adds the morph weights of every mesh that has a target with a track's name.
 void add_weights(Adder& adder, const Json& document, const Motion& motion, std::size_t times) {
   const Json nodes = document.value("nodes", Json::array());
   for (std::size_t node = 0; node < nodes.size(); ++node) {
@@ -179,7 +179,7 @@ std::string made(std::string_view character, const Motion& motion, const Charact
                             "studio/avatar/build",
                             name.get<std::string>()));
   }
-  if (document.at("buffers").size() != 1) throw Error(ErrorCode::bad_input, "no GLB of one buffer");
+  if (document.at("buffers").size() != 1) throw Error(ErrorCode::bad_input, "not a GLB with one buffer");
   std::map<std::string, std::size_t> nodes;
   for (std::size_t i = 0; i < document.at("nodes").size(); ++i) {
     nodes.emplace(document["nodes"][i].value("name", std::string()), i);
@@ -204,7 +204,7 @@ std::string on_character(const std::string& file, std::string_view character, co
   try {
     return made(character, motion, options);
   } catch (const Json::exception& error) {
-    throw Error(ErrorCode::bad_input, fmt::format("{}: not as glTF has it: {}", file, error.what()));
+    throw Error(ErrorCode::bad_input, fmt::format("{}: not as glTF specifies: {}", file, error.what()));
   } catch (const Error& error) {
     throw Error(error.code(), fmt::format("{}: {}", file, error.what()), error.remedies());
   }

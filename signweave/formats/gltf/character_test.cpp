@@ -16,7 +16,7 @@ namespace {
 using nlohmann::json;
 using testing::HasSubstr;
 
-/// A character of two joints, a face of two targets and four bytes that must stay.
+/// A character with two joints, a face with two targets and four bytes that must be preserved.
 json character_json() {
   return json::parse(R"({
     "asset": {"version": "2.0", "extras": {"signweave": {"version": 1}}},
@@ -51,7 +51,7 @@ struct ReadCharacter {
     std::memcpy(values.data(), bytes.data() + view["byteOffset"].get<std::size_t>(), values.size() * 4);
     return values;
   }
-  /// The keys of a node's channel, none where it has none.
+  /// The keys of a node's channel; empty if it has none.
   std::vector<float> keys(int node, const std::string& path) const {
     const json& animation = document["animations"][0];
     for (const json& channel : animation["channels"]) {
@@ -98,7 +98,7 @@ ErrorCode code_of(const std::string& file, const Motion& with, std::string& text
   return ErrorCode::io;
 }
 
-TEST(GltfCharacter, AMotionIsAddedAndWhatWasThereStays) {
+TEST(GltfCharacter, AMotionIsAddedAndTheOriginalContentStays) {
   const ReadCharacter made =
       read_character_text(on_character("x.glb", glb(character_json().dump()), motion(),
                                        {.name = "signing", .declarations = {{"signweave:placeholder", "no LSF"}}}));
@@ -129,15 +129,15 @@ TEST(GltfCharacter, AMotionWithoutTracksLeavesTheFaceAlone) {
       read_character_text(on_character("x.glb", glb(character_json().dump()), without, {})).keys(2, "weights").empty());
 }
 
-TEST(GltfCharacter, WhatIsNoPlainGlbIsRefused) {
+TEST(GltfCharacter, FilesOtherThanPlainGlbAreRefused) {
   std::string text;
   const std::string good = glb(character_json().dump());
   EXPECT_EQ(code_of("no", motion(), text), ErrorCode::bad_input);
-  EXPECT_EQ(text, "x.glb: no GLB: it does not begin with glTF");
+  EXPECT_EQ(text, "x.glb: not a GLB: it does not begin with glTF");
   EXPECT_EQ(code_of(good.substr(0, good.size() - 1), motion(), text), ErrorCode::bad_input);
-  EXPECT_EQ(text, "x.glb: no GLB: it ends within a chunk");
+  EXPECT_EQ(text, "x.glb: not a GLB: it ends within a chunk");
   EXPECT_EQ(code_of(glb("{"), motion(), text), ErrorCode::bad_input);
-  EXPECT_THAT(text, HasSubstr("x.glb: not as glTF has it"));
+  EXPECT_THAT(text, HasSubstr("x.glb: not as glTF specifies"));
   EXPECT_EQ(code_of(glb("{}"), motion(), text), ErrorCode::bad_input);
   json packed = character_json();
   packed["extensionsRequired"] = {"EXT_meshopt_compression"};
@@ -148,12 +148,12 @@ TEST(GltfCharacter, WhatIsNoPlainGlbIsRefused) {
   EXPECT_EQ(code_of(glb(meshless.dump()), motion(), text), ErrorCode::bad_input);
 }
 
-TEST(GltfCharacter, NumbersThatAreNoneAreRefused) {
+TEST(GltfCharacter, NumbersThatAreNotFiniteAreRefused) {
   std::string text;
   Motion broken = motion();
   broken.pose(1).rotations[1].x() = std::numeric_limits<float>::quiet_NaN();
   EXPECT_EQ(code_of(glb(character_json().dump()), broken, text), ErrorCode::bad_input);
-  EXPECT_EQ(text, "frame 1: the rotation of 'head' is not a finite number; glTF has no other");
+  EXPECT_EQ(text, "frame 1: the rotation of 'head' is not a finite number; glTF allows no other");
 }
 
 }  // namespace

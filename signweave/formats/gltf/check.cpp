@@ -21,7 +21,7 @@ enum class Kind { index, indices, whole, flag, text, numbers, object };
 struct Member {
   const char* name;
   Kind kind;
-  const char* of = "";    ///< the list whose elements an index means
+  const char* of = "";    ///< the list that an index refers to
   std::size_t count = 0;  ///< of numbers
   bool needed = false;
 };
@@ -67,8 +67,8 @@ constexpr Member kViewMembers[] = {{"buffer", Kind::index, "buffers", 0, true},
                                    {"byteStride", Kind::whole}};
 constexpr Member kBufferMembers[] = {{"uri", Kind::text}, {"byteLength", Kind::whole, "", 0, true}};
 
-/// A list of the file: what an element is called in an error, what it holds, and how many there may be. tinygltf takes
-/// some hundred bytes for each, however short it is in the file.
+/// A list of the file: the name of an element in errors, its members, and the maximum count. tinygltf uses some hundred
+/// bytes for each, however short it is in the file.
 struct Section {
   const char* name;
   const char* element;
@@ -104,9 +104,9 @@ class Checker {
 
   void check_version() const {
     const auto asset = root_.find("asset");
-    if (asset == root_.end() || !asset->is_object()) refuse("no glTF: it has no 'asset' with a version");
+    if (asset == root_.end() || !asset->is_object()) refuse("not glTF: it has no 'asset' with a version");
     const auto version = asset->find("version");
-    if (version == asset->end() || !version->is_string()) refuse("no glTF: its 'asset' has no version");
+    if (version == asset->end() || !version->is_string()) refuse("not glTF: its 'asset' has no version");
     const auto& text = version->get_ref<const std::string&>();
     if (text != "2" && !text.starts_with("2.")) {
       refuse(fmt::format("glTF of version {}; only 2 is known, export it as that", printable(text)));
@@ -120,7 +120,7 @@ class Checker {
   void check_section(const Section& section) {
     const auto list = root_.find(section.name);
     if (list == root_.end()) return;
-    if (!list->is_array()) refuse(fmt::format("'{}' is no list", section.name));
+    if (!list->is_array()) refuse(fmt::format("'{}' is not a list", section.name));
     if (list->size() > section.most) {
       refuse(fmt::format("it has {} {}, more than any motion needs", list->size(), section.name));
     }
@@ -148,7 +148,7 @@ class Checker {
       const std::string path = target["path"].get<std::string>();
       const bool known = path == "translation" || path == "rotation" || path == "scale" || path == "weights";
       if (known && target.contains("node")) continue;
-      target["node"] = 0;  // it stays, so that channels keep their numbers
+      target["node"] = 0;  // it is kept, so that channels keep their numbers
       target["path"] = "ignored";
     }
   }
@@ -156,7 +156,7 @@ class Checker {
   nlohmann::json& list_of(nlohmann::json& object, const char* name, const std::string& place) const {
     nlohmann::json& list = object[name];
     if (list.is_null()) list = nlohmann::json::array();
-    if (!list.is_array()) refuse(fmt::format("{}: '{}' is no list", place, name));
+    if (!list.is_array()) refuse(fmt::format("{}: '{}' is not a list", place, name));
     if (list.size() > kMostAccessors) refuse(fmt::format("{}: {} {}", place, list.size(), name));
     return list;
   }
@@ -230,7 +230,7 @@ class Checker {
         return;
       }
       case Kind::whole:
-        if (!made_whole(value)) wrong("no whole number of 0 or more");
+        if (!made_whole(value)) wrong("not a whole number of 0 or more");
         return;
       case Kind::flag:
         if (!value.is_boolean()) wrong("neither true nor false");
@@ -243,16 +243,16 @@ class Checker {
         return;
       case Kind::numbers:
         if (!value.is_array() || value.size() != member.count) {
-          refuse(fmt::format("{}: '{}' is no list of {} numbers", place, member.name, member.count));
+          refuse(fmt::format("{}: '{}' is not a list of {} numbers", place, member.name, member.count));
         }
         for (const nlohmann::json& one : value) {
-          if (!one.is_number()) wrong("no list of numbers");
+          if (!one.is_number()) wrong("not a list of numbers");
         }
         return;
     }
   }
 
-  /// JSON tells 1.0 from 1 only by its look, and some programs write the one for the other.
+  /// JSON distinguishes 1.0 from 1 only by its spelling, and some programs write one for the other.
   static bool made_whole(nlohmann::json& value) {
     if (value.is_number_float()) {
       const double number = value.get<double>();
@@ -265,7 +265,7 @@ class Checker {
   void index(nlohmann::json& value, const nlohmann::json& lists, const char* of, const std::string& what) const {
     const auto list = lists.find(of);
     const std::size_t count = list == lists.end() || !list->is_array() ? 0 : list->size();
-    if (!made_whole(value)) refuse(fmt::format("{} is no number of one of its {} {}", what, count, of));
+    if (!made_whole(value)) refuse(fmt::format("{} is not the number of one of its {} {}", what, count, of));
     const auto number = value.get<std::uint64_t>();
     if (number >= count) refuse(fmt::format("{} is {}, but there are {} {}", what, number, count, of));
   }

@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
   throw Error(code, fmt::format("{}: {}", file, what));
 }
 
-/// The JSON of a file and, of a GLB, the bytes of its first buffer. Borrowed.
+/// The JSON of a file and, for a GLB, the bytes of its first buffer. Borrowed.
 struct GlbParts {
   std::string_view json;
   std::optional<std::string_view> bytes;
@@ -53,17 +53,18 @@ GlbParts glb_parts(const std::string& file, std::string_view bytes) {
     const std::uint32_t kind = glb_number(bytes, at + 4);
     at += 8;
     if (size > bytes.size() - at) refuse_content(file, "a chunk of the GLB is longer than the file");
-    if (first && kind != 0x4E4F534A) refuse_content(file, "the first chunk of the GLB is no JSON");
+    if (first && kind != 0x4E4F534A) refuse_content(file, "the first chunk of the GLB is not JSON");
     if (first) parts.json = bytes.substr(at, size);
     if (!first && kind == 0x004E4942 && !parts.bytes) parts.bytes = bytes.substr(at, size);
     at += size;
-    at += std::min<std::size_t>((4 - size % 4) % 4, bytes.size() - at);  // some do not fill chunks up
+    at += std::min<std::size_t>((4 - size % 4) % 4, bytes.size() - at);  // some exporters do not pad chunks
   }
   if (first) refuse_content(file, "the GLB has no chunk");
   return parts;
 }
 
-/// Extensions that may be required, for they change what is seen and no motion. Of Draco only meshes are packed.
+/// Extensions that may be required, because they change the appearance and not the motion. Draco compresses only
+/// meshes.
 bool is_harmless(const std::string& extension) {
   static constexpr std::array kNames = {
       "EXT_meshopt_compression", "KHR_mesh_quantization", "KHR_draco_mesh_compression",
@@ -76,9 +77,9 @@ bool is_harmless(const std::string& extension) {
 void require_known_extensions(const std::string& file, const nlohmann::json& json) {
   const auto names = json.find("extensionsRequired");
   if (names == json.end()) return;
-  if (!names->is_array()) refuse_content(file, "'extensionsRequired' is no list");
+  if (!names->is_array()) refuse_content(file, "'extensionsRequired' is not a list");
   for (const nlohmann::json& name : *names) {
-    if (!name.is_string()) refuse_content(file, "'extensionsRequired' holds what is no text");
+    if (!name.is_string()) refuse_content(file, "'extensionsRequired' contains a value that is not text");
     const auto& text = name.get_ref<const std::string&>();
     if (is_harmless(text)) continue;
     refuse_content(file,
@@ -131,7 +132,7 @@ std::vector<std::optional<PackedView>> packed_views(const std::string& file, con
     const auto number = [&](const char* name, bool needed) -> std::uint64_t {
       const nlohmann::json& value = member_of(packing, name);
       if (value.is_null() && !needed) return 0;
-      if (!value.is_number_unsigned()) refuse(fmt::format("'{}' is no whole number", name).c_str());
+      if (!value.is_number_unsigned()) refuse(fmt::format("'{}' is not a whole number", name).c_str());
       return value.get<std::uint64_t>();
     };
     const auto text = [&](const char* name, const char* otherwise) {
@@ -151,7 +152,7 @@ std::vector<std::optional<PackedView>> packed_views(const std::string& file, con
   return views;
 }
 
-/// All that tinygltf would follow, decode or copy is left out of what it parses.
+/// Parses with everything removed that tinygltf would follow, decode or copy.
 tinygltf::Model model_of(const std::string& file, nlohmann::json json) {
   for (const char* const name : {"buffers", "meshes"}) json.erase(name);
   if (const auto views = json.find("bufferViews"); views != json.end()) {
@@ -170,7 +171,7 @@ tinygltf::Model model_of(const std::string& file, nlohmann::json json) {
   std::string warning;
   if (!tinygltf::TinyGLTF().LoadASCIIFromString(&model, &error, &warning, text.data(),
                                                 static_cast<unsigned>(text.size()), "", tinygltf::NO_REQUIRE)) {
-    refuse_content(file, "no whole glTF: " + printable(error));
+    refuse_content(file, "not a complete glTF file: " + printable(error));
   }
   return model;
 }
@@ -178,7 +179,7 @@ tinygltf::Model model_of(const std::string& file, nlohmann::json json) {
 std::string outside_bytes(const std::string& place, const fs::path& path) {
   std::error_code ignored;
   if (fs::exists(path, ignored) && !fs::is_regular_file(path, ignored)) {
-    refuse_content(place, path.string() + " is no file");
+    refuse_content(place, path.string() + " is not a file");
   }
   try {
     return read_file(path);
@@ -191,7 +192,7 @@ std::string outside_bytes(const std::string& place, const fs::path& path) {
 void add_buffers(Content& content, nlohmann::json& json, const GlbParts& parts, const fs::path& folder) {
   const auto list = json.find("buffers");
   if (list == json.end()) return;
-  std::map<fs::path, std::string_view> outside;  // each file is read once, however many buffers it is
+  std::map<fs::path, std::string_view> outside;  // each file is read once, however many buffers refer to it
   for (std::size_t i = 0; i < list->size(); ++i) {
     nlohmann::json& buffer = (*list)[i];
     const std::string place = fmt::format("{}: buffer {}", content.name, i);
@@ -214,7 +215,7 @@ void add_buffers(Content& content, nlohmann::json& json, const GlbParts& parts, 
     } else if (i == 0 && parts.bytes) {
       bytes = *parts.bytes;
     } else {
-      // Views of it are packed, and lie elsewhere in truth; one that does not is refused when it is read.
+      // Its views are packed and are really stored elsewhere; one that is not is refused when it is read.
       content.buffers.emplace_back();
       continue;
     }

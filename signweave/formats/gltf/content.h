@@ -15,7 +15,7 @@
 
 namespace signweave::gltf {
 
-/// EXT_meshopt_compression of a view: where its packed bytes lie and what they unpack to.
+/// EXT_meshopt_compression of a view: the location of its packed bytes and the size they unpack to.
 struct PackedView {
   std::size_t buffer = 0;
   std::uint64_t offset = 0;  ///< bytes
@@ -26,36 +26,36 @@ struct PackedView {
   std::string filter;        ///< NONE, OCTAHEDRAL, QUATERNION or EXPONENTIAL
 };
 
-/// What is told of a mesh by its morph targets.
+/// The morph targets of a mesh.
 struct MorphMesh {
   std::string name;
   std::size_t targets = 0;
-  std::vector<std::string> target_names;  ///< [target], or none
+  std::vector<std::string> target_names;  ///< [target]; empty if it has none
 };
 
-/// A file taken apart, and checked as far as that needs no numbers. The bytes that it was made from must outlive it.
+/// A parsed file, checked as far as that is possible without its numbers. The bytes it was parsed from must outlive it.
 struct Content {
   std::string name;                               ///< stands for the file in errors
   tinygltf::Model model;                          ///< without buffers, meshes, materials and pictures
   std::vector<std::optional<PackedView>> packed;  ///< [view]
   std::vector<MorphMesh> meshes;                  ///< [mesh]
-  /// What the file declares of itself: extras "signweave:…" of its asset. Name and value.
+  /// What the file declares: extras "signweave:…" of its asset, as name and value.
   std::vector<std::pair<std::string, std::string>> declarations;
   std::vector<nlohmann::json> tracks;     ///< [animation] the `tracks` of its extras, or null
   std::vector<bool> is_light;             ///< [node]
-  std::vector<std::string_view> buffers;  ///< [buffer] its bytes; none of one that only stands in for others
-  std::deque<std::string> owned;          ///< those bytes that are not in the file as they are
-  std::uint64_t byte_count = 0;           ///< of the file and of all buffers outside of it
+  std::vector<std::string_view> buffers;  ///< [buffer] its bytes; empty for one that is only a placeholder for others
+  std::deque<std::string> owned;          ///< those bytes that do not occur verbatim in the file
+  std::uint64_t byte_count = 0;           ///< of the file and of all external buffers
 
-  /// Our own writer made it.
+  /// True if our own writer wrote it.
   bool is_ours() const { return model.asset.generator == "signweave"; }
 };
 
-/// Takes a .glb or .gltf apart. Buffers outside of it must lie in `folder` or below; where that is empty, none may be
-/// read. Throws Error{bad_input} or Error{unsupported}, "FILE: …", and as `read_file` does.
+/// Parses a .glb or .gltf. External buffers must lie in `folder` or below; if that is empty, none may be read. Throws
+/// Error{bad_input} or Error{unsupported}, "FILE: …", and as `read_file` does.
 Content content_of(const std::string& name, std::string_view bytes, const std::filesystem::path& folder);
 
-/// The buffers outside of a file, in its folder or below.
+/// The external buffers of a file, in its folder or below.
 std::vector<std::filesystem::path> outside_buffers(const std::string& name, std::string_view bytes,
                                                    const std::filesystem::path& folder);
 

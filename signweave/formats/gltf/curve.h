@@ -16,11 +16,11 @@ enum class Interpolation { step, linear, cubic };
 /// The times of keys, shared by curves.
 struct KeyTimes {
   std::span<const float> seconds;  ///< [key] ascending
-  std::vector<double> frames;      ///< [key] where they are among the motion's frames; filled in when its rate is known
-  bool one_a_frame = false;        ///< key i stands at frame i
+  std::vector<double> frames;  ///< [key] their positions among the motion's frames; filled in when its rate is known
+  bool one_a_frame = false;    ///< key i is at frame i
 };
 
-/// Keys of one property of one node, as the file has them. Borrows its numbers.
+/// The keys of one property of one node, as in the file. Borrows its numbers.
 struct Curve {
   std::string place;  ///< "animation 0, channel 3"
   Interpolation interpolation = Interpolation::linear;
@@ -40,26 +40,26 @@ struct Curve {
   }
 };
 
-/// True where any part of any key is farther than `most` from the first key's, or a cubic curve leaves it between keys.
+/// True if any part of any key differs by more than `most` from the first key's, or a cubic curve does so between keys.
 bool changes(const Curve& curve, float most);
 
-/// Evaluates a curve at places among the motion's frames, fastest where they ascend. Before the first key and after the
-/// last one their values hold. Borrows the curve.
+/// Evaluates a curve at positions among the motion's frames, fastest if they ascend. Before the first key and after the
+/// last, their values hold. Borrows the curve.
 class CurveReader {
  public:
-  /// `frame_seconds`: how long a frame lasts, for the tangents of cubic curves.
+  /// `frame_seconds`: the duration of a frame, for the tangents of cubic curves.
   CurveReader(const Curve& curve, double frame_seconds) : curve_(&curve), frame_seconds_(frame_seconds) {}
 
-  /// [part] at a place; not normalised. Valid until the next call.
+  /// Returns [part] at a position, not normalized. Valid until the next call.
   std::span<const double> at(double frame);
-  /// The same of a rotation, whose linear interpolation goes along the shorter arc; unit.
+  /// The same for a rotation, which is interpolated linearly along the shorter arc; unit.
   Eigen::Quaterniond rotation_at(double frame);
-  /// The same of a translation or scale.
+  /// The same for a translation or scale.
   Eigen::Vector3d vector_at(double frame);
 
  private:
   struct Between {
-    std::size_t key;  ///< the last one at or before the place, else the first
+    std::size_t key;  ///< the last one at or before the position, otherwise the first
     double part;      ///< 0 at that key, 1 at the next
   };
   Between between(double frame);
@@ -70,7 +70,7 @@ class CurveReader {
   std::vector<double> values_;
 };
 
-/// A unit quaternion from four numbers x, y, z, w; the identity where they have no length.
+/// A unit quaternion from four numbers x, y, z, w; the identity if their norm is zero.
 Eigen::Quaterniond unit_rotation(std::span<const float> xyzw);
 
 }  // namespace signweave::gltf

@@ -117,9 +117,10 @@ std::vector<float> key_times(FrameRate rate, std::int64_t frames) {
     if (frame > 0 && time <= times.back()) {
       throw Error(
           ErrorCode::unsupported,
-          fmt::format("frame {} at {} frames a second: glTF cannot tell its time from that of the frame before; "
-                      "write a part of the motion",
-                      frame, to_string(rate)));
+          fmt::format(
+              "frame {} at {} frames a second: glTF cannot distinguish its time from that of the previous frame; "
+              "write a part of the motion",
+              frame, to_string(rate)));
     }
     times.push_back(time);
   }

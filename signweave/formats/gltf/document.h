@@ -6,22 +6,22 @@
 #include <string>
 #include <vector>
 
-// The library's name for itself, so that no other file needs its header's long list.
+// The library's namespace, declared here so that other files need not include its long header.
 #include <tiny_gltf.h>
 
 #include "signweave/core/time.h"
 
 namespace signweave::gltf {
 
-/// A glTF model that is being put together: numbers go into its one buffer, each list with a view and an accessor of
-/// its own, four-byte aligned. Every function returns the accessor's index.
+/// A glTF model under construction: numbers are appended to its one buffer, each list with its own view and accessor,
+/// four-byte aligned. Every function returns the accessor's index.
 class Document {
  public:
-  /// Holds at most `most_bytes` of numbers: the function that would pass it throws Error{unsupported}, with `too_large`
-  /// as its text.
+  /// Holds at most `most_bytes` of numbers: a call that would exceed it throws Error{unsupported} with the text
+  /// `too_large`.
   Document(std::size_t most_bytes, std::string too_large);
 
-  /// One number each; with their bounds where they are the times of an animation.
+  /// One number each; with bounds if they are the times of an animation.
   int scalars(std::span<const float> values, bool with_bounds = false);
   /// Vertex attributes (positions and targets have bounds, normals have none), or the keys of an animation.
   int vectors(std::span<const Eigen::Vector3f> values, bool vertices, bool with_bounds = false);
@@ -30,7 +30,7 @@ class Document {
   int matrices(std::span<const Eigen::Matrix4f> values);
   /// JOINTS_0: each vertex moves with one joint.
   int joints(std::span<const int> values);
-  /// WEIGHTS_0 beside it: all weight on the first.
+  /// The WEIGHTS_0 that go with it: all weight on the first joint.
   int full_weights(std::size_t count);
   int indices(std::span<const std::uint32_t> values);
 
@@ -49,8 +49,8 @@ class Document {
   std::string too_large_;
 };
 
-/// The time of each frame, seconds. Throws Error{unsupported} where two fall together: glTF's times are floats, and
-/// must grow.
+/// The time of each frame, in seconds. Throws Error{unsupported} if two are equal: glTF's times are floats and must
+/// increase.
 std::vector<float> key_times(FrameRate rate, std::int64_t frames);
 
 }  // namespace signweave::gltf

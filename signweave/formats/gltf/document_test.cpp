@@ -12,7 +12,7 @@ namespace {
 using testing::HasSubstr;
 using testing_gltf::elements;
 
-TEST(GltfDocument, FramesWhoseTimesFallTogetherAreRefused) {
+TEST(GltfDocument, FramesWithEqualTimesAreRefused) {
   EXPECT_EQ(gltf::key_times({30'000, 1'001}, 3)[2], static_cast<float>(2 * 1001 / 30'000.0));
   EXPECT_NO_THROW(gltf::key_times({100, 1}, 1'000'000));  // nearly three hours
   try {
@@ -20,11 +20,11 @@ TEST(GltfDocument, FramesWhoseTimesFallTogetherAreRefused) {
     FAIL() << "no error";
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ErrorCode::unsupported);
-    EXPECT_THAT(error.what(), HasSubstr("glTF cannot tell its time"));
+    EXPECT_THAT(error.what(), HasSubstr("glTF cannot distinguish its time"));
   }
 }
 
-TEST(GltfDocument, RefusesToPassItsLimit) {
+TEST(GltfDocument, RefusesToExceedItsLimit) {
   gltf::Document document(40, "too large for a test");
   const std::vector<float> numbers(8, 1.0f);
   document.scalars(numbers);

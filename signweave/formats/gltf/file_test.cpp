@@ -1,4 +1,4 @@
-// glTF as files: whole or not at all.
+// Atomic writing of glTF files.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -29,14 +29,14 @@ class GltfFile : public testing::Test {
   std::filesystem::path folder_;
 };
 
-TEST_F(GltfFile, TheEndingSaysWhich) {
+TEST_F(GltfFile, TheExtensionDeterminesTheFormat) {
   gltf::write(folder_ / "a.GLTF", moving_person(2), {});
   gltf::write(folder_ / "a.glb", moving_person(2), {});
   EXPECT_EQ(read_file(folder_ / "a.GLTF"), gltf::to_bytes(moving_person(2), {}, gltf::Container::text));
   EXPECT_EQ(read_file(folder_ / "a.glb"), gltf::to_bytes(moving_person(2), {}, gltf::Container::binary));
 }
 
-TEST_F(GltfFile, AFaultLeavesTheOldFile) {
+TEST_F(GltfFile, AnErrorLeavesTheOldFile) {
   std::ofstream(folder_ / "a.glb") << "old";
   Motion motion = moving_person(2);
   motion.pose(1).translations[0].x() = std::nanf("");

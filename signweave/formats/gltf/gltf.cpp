@@ -23,8 +23,7 @@ namespace {
 
 using Eigen::Vector3f;
 
-constexpr std::uint64_t kMostFileBytes =
-    std::numeric_limits<std::uint32_t>::max();  // a GLB counts its own with 32 bits
+constexpr std::uint64_t kMostFileBytes = std::numeric_limits<std::uint32_t>::max();  // a GLB stores its size in 32 bits
 constexpr const char* kTooLarge = "the motion is larger than the 4 GiB that a .glb file may have; write a part of it";
 constexpr std::size_t kMostTextBytes = std::size_t{64} << 20;
 
@@ -34,7 +33,7 @@ std::size_t at(Number number) {
   return static_cast<std::size_t>(number);
 }
 
-/// Gives out each name once: the second "Hand" is "Hand 2".
+/// Returns each name once: the second "Hand" is "Hand 2".
 class Names {
  public:
   std::string unique(const std::string& wanted) {
@@ -61,7 +60,7 @@ RigMap rig_of(const Motion& motion, const WriteOptions& options) {
   return rig;
 }
 
-/// Puts one motion into a document, part by part.
+/// Writes one motion into a document, part by part.
 class Writer {
  public:
   Writer(const Motion& motion, const WriteOptions& options, Document& document)
@@ -89,7 +88,7 @@ class Writer {
     add_rotations();
     add_translations();
     add_tracks();
-    if (animation_.channels.empty()) {  // nothing moves; an animation must all the same
+    if (animation_.channels.empty()) {  // nothing moves, but an animation must have a channel
       const Eigen::Vector4f key = motion_.rotations()[0].coeffs().normalized();
       add_channel(0, "rotation", document_.quaternions({&key, 1}), false);
     }
@@ -98,7 +97,7 @@ class Writer {
   }
 
  private:
-  /// Every rotation the identity, and translations as in the first frame.
+  /// Every rotation is the identity, and the translations are those of the first frame.
   void find_bind_pose() {
     for (JointIndex joint = 0; at(joint) < skeleton_.joint_count(); ++joint) {
       const Joint& one = skeleton_.joint(joint);
@@ -109,9 +108,9 @@ class Writer {
     }
   }
 
-  /// From the plan's pose into a joint's space.
-  Vector3f turned_back(JointIndex joint, const Vector3f& way) const {
-    return plan_.pose.rotations[at(joint)].conjugate() * way;
+  /// Converts a direction from the plan's pose to a joint's space.
+  Vector3f turned_back(JointIndex joint, const Vector3f& direction) const {
+    return plan_.pose.rotations[at(joint)].conjugate() * direction;
   }
   Vector3f in_joint(JointIndex joint, const Vector3f& place) const {
     return turned_back(joint, place - plan_.place(joint));
@@ -125,7 +124,7 @@ class Writer {
     return static_cast<int>(model_.nodes.size()) - 1;
   }
 
-  /// Node i is joint i, so that nobody has to look up which is which; tips and the node above the root follow.
+  /// Node i is joint i, so no lookup is needed; tips and the node above the root follow.
   void add_nodes() {
     for (std::size_t joint = 0; joint < skeleton_.joint_count(); ++joint) {
       const Joint& one = skeleton_.joint(static_cast<JointIndex>(joint));
@@ -154,7 +153,7 @@ class Writer {
     return static_cast<int>(model_.materials.size()) - 1;
   }
 
-  /// The one mesh that moves with all joints.
+  /// Adds the one mesh that moves with all joints.
   void add_body() {
     BodyMesh mesh = body_mesh(skeleton_, plan_);
     if (mesh.positions.empty()) return;  // a root alone
@@ -185,7 +184,8 @@ class Writer {
       from_model.push_back(matrix);
     };
     for (std::size_t joint = 0; joint < skeleton_.joint_count(); ++joint) add_joint(joint, places_[joint]);
-    // Tips are bones too: else Blender makes an empty object of each, and does not know how long the last bones are.
+    // Tips are bones too: otherwise Blender creates an empty object for each, and does not know the length of the last
+    // bones.
     for (std::size_t i = 0; i < skeleton_.tips().size(); ++i) {
       const Tip& tip = skeleton_.tips()[i];
       add_joint(skeleton_.joint_count() + i, places_[at(tip.joint)] + tip.offset);
@@ -195,7 +195,7 @@ class Writer {
     model_.nodes[at(node)].skin = 0;
   }
 
-  /// A node with a mesh of one primitive.
+  /// Adds a node with a mesh of one primitive.
   int add_mesh(const std::string& name, tinygltf::Primitive primitive, tinygltf::Value extras) {
     const int node = add_node(name, Vector3f::Zero());
     tinygltf::Mesh mesh;
@@ -240,7 +240,7 @@ class Writer {
     }
   }
 
-  /// One that stays where it is in frame 0 needs no keys: that is where its node is.
+  /// A joint that stays where it is in frame 0 needs no keys, because its node is there.
   void add_translations() {
     std::vector<Vector3f> keys;
     for (std::size_t i = 0; i < skeleton_.translation_count(); ++i) {
@@ -249,21 +249,21 @@ class Writer {
     }
   }
 
-  /// The face's weights where there is a head to draw it on; the rest as plain numbers.
+  /// Adds the face's weights if there is a head to draw it on; all other tracks as plain numbers.
   void add_tracks() {
     std::vector<const ScalarTrack*> shown;
-    std::vector<const ScalarTrack*> told;
+    std::vector<const ScalarTrack*> others;
     for (const ScalarTrack& track : motion_.tracks()) {
       const auto known = face_target_names();
       const bool again =
           std::any_of(shown.begin(), shown.end(), [&](const auto* one) { return one->name == track.name; });
       const bool drawn = plan_.head && !again && std::find(known.begin(), known.end(), track.name) != known.end();
-      (drawn ? shown : told).push_back(&track);
+      (drawn ? shown : others).push_back(&track);
     }
     if (!shown.empty()) add_face(shown);
-    if (told.empty()) return;
+    if (others.empty()) return;
     tinygltf::Value::Array list;
-    for (const ScalarTrack* track : told) {
+    for (const ScalarTrack* track : others) {
       tinygltf::Value::Array values;
       values.reserve(track->values.size());
       for (const float value : track->values) values.emplace_back(static_cast<double>(value));
@@ -342,7 +342,7 @@ void write_to(std::ostream& out, const Motion& motion, const WriteOptions& optio
   tinygltf::TinyGLTF().WriteGltfSceneToStream(&document.model(), out, false, binary);
 }
 
-/// Of the whole file, when it is known: tracks that are written as text were not counted before.
+/// Checks the size of the whole file once it is known: tracks that are written as text were not counted before.
 void require_size(std::uint64_t bytes) {
   if (bytes > kMostFileBytes) throw Error(ErrorCode::unsupported, kTooLarge);
 }
@@ -362,7 +362,7 @@ void write(const std::filesystem::path& path, const Motion& motion, const WriteO
   AtomicFile file(path);
   AtomicFileBuffer buffer(file);
   std::ostream out(&buffer);
-  out.exceptions(std::ios::badbit);  // a full disk is AtomicFile's Error, not a flag that nobody reads
+  out.exceptions(std::ios::badbit);  // a full disk becomes AtomicFile's Error, not an unread flag
   try {
     write_to(out, motion, options, text ? Container::text : Container::binary);
     if (!text) require_size(buffer.bytes());

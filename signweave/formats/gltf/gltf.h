@@ -9,8 +9,8 @@
 #include "signweave/motion/motion.h"
 #include "signweave/rig/rig_map.h"
 
-/// glTF 2.0 out, for viewers and for Blender: the skeleton as a node tree, one skinned mesh that shows it as a person
-/// of simple solids, and one animation.
+/// glTF 2.0 output, for viewers and for Blender: the skeleton as a node tree, one skinned mesh that shows it as a
+/// person of simple solids, and one animation.
 namespace signweave::gltf {
 
 enum class Container {
@@ -20,24 +20,24 @@ enum class Container {
 
 struct WriteOptions {
   std::string name = "motion";  ///< of the animation, and of the node above the root; UTF-8
-  /// What the sources say of themselves ("signweave:placeholder"): names and values, written to the asset's extras.
+  /// What the sources declare ("signweave:placeholder"): names and values, written to the asset's extras.
   std::vector<std::pair<std::string, std::string>> declarations;
-  /// The joint that carries the face; else the one that is called Head, else the one that looks like it.
+  /// The joint that carries the face; if not given, the one named Head, or else the one with the shape of a head.
   std::optional<JointIndex> head;
-  std::optional<RigMap> rig;  ///< which joint is what; where none is given, `map_rig` tells
+  std::optional<RigMap> rig;  ///< which joint is which; if not given, the result of `map_rig`
 };
 
-/// A motion as glTF. Joints and tips are nodes, in metres, Y up; names are kept, and numbered where two are the same.
-/// The bind pose is every rotation the identity, and the translations of the first frame. A joint that never moves has
-/// one key or none, the others one key a frame, linearly interpolated. Scalar tracks with ARKit names that the drawn
-/// face can show are its morph weights; all others are in the animation's extras as `tracks`, a list of objects with
-/// name, rate (frames a second) and values.
+/// Returns a motion as glTF. Joints and tips are nodes, in metres, Y up; names are preserved, and numbered if two are
+/// the same. In the bind pose every rotation is the identity and the translations are those of the first frame. A joint
+/// that never moves has at most one key, the others one key per frame, linearly interpolated. Scalar tracks with ARKit
+/// names that the drawn face can show are its morph weights; all others are in the animation's extras as `tracks`, a
+/// list of objects with name, rate (frames per second) and values.
 ///
 /// Throws Error{bad_input} for a motion without joints or frames or with numbers that are not finite,
 /// Error{unsupported} for one that is too large for the container.
 std::string to_bytes(const Motion& motion, const WriteOptions& options, Container container);
 
-/// Writes to a file, as its ending says (.gltf is text, every other binary). Whole or not at all; throws also
+/// Writes to a file, in the format of its extension (.gltf is text, any other binary). Written atomically; also throws
 /// Error{io}.
 void write(const std::filesystem::path& path, const Motion& motion, const WriteOptions& options);
 

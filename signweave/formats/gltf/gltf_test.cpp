@@ -42,7 +42,7 @@ std::string writing_error(const Motion& motion, gltf::Container container = gltf
   return "no error";
 }
 
-TEST(Gltf, JointsAndTipsAreNodesUnderOneThatIsNamedLikeTheMotion) {
+TEST(Gltf, JointsAndTipsAreNodesUnderOneNamedAfterTheMotion) {
   const Motion motion = moving_person(4);
   const tinygltf::Model model = written(motion, {.name = "meteo", .declarations = {}, .head = {}});
   const Skeleton& skeleton = motion.skeleton();
@@ -61,7 +61,7 @@ TEST(Gltf, JointsAndTipsAreNodesUnderOneThatIsNamedLikeTheMotion) {
   EXPECT_EQ(model.animations[0].name, "meteo");
 }
 
-TEST(Gltf, NodesStandWhereTheJointsDo) {
+TEST(Gltf, NodesAreWhereTheJointsAre) {
   const Motion motion = moving_person(30);
   const tinygltf::Model model = written(motion);
   for (const std::int64_t frame : {0, 1, 13, 29}) EXPECT_LT(farthest(motion, model, frame), 1e-5f) << "frame " << frame;
@@ -167,7 +167,7 @@ TEST(Gltf, AJointThatNeverMovesHasOneKeyOrNone) {
   EXPECT_LT(farthest(motion, model, 19), 1e-5f);
 }
 
-TEST(Gltf, AStillMotionHasAnAnimationAllTheSame) {
+TEST(Gltf, AStillMotionStillHasAnAnimation) {
   const tinygltf::Model model = written(Motion(person(), {100, 1}, 1));
   EXPECT_EQ(model.animations.at(0).channels.size(), 1u);
 }
@@ -188,7 +188,7 @@ TEST(Gltf, TheSkinIsBoundInTheRestPose) {
   }
 }
 
-TEST(Gltf, TheBodyGoesWithItsJoints) {
+TEST(Gltf, TheBodyMovesWithItsJoints) {
   const Motion motion = moving_person(9);
   const tinygltf::Model model = written(motion);
   const auto& attributes = model.meshes.at(0).primitives.at(0).attributes;
@@ -259,7 +259,7 @@ TEST(Gltf, AFaceIsDrawnOnTheHeadAndOnNothingElse) {
   Motion motion = moving_person(2);
   EXPECT_EQ(written(motion).meshes.size(), 1u) << "no face without tracks";
   motion.add_track({"jawOpen", {0, 1}});
-  // The face lies before the head, in its joint's space.
+  // The face is in front of the head, in its joint's space.
   const tinygltf::Model model = written(motion);
   for (const auto& position : elements(model, model.meshes[1].primitives[0].attributes.at("POSITION"))) {
     EXPECT_GT(position[2], 0.02f);

@@ -39,12 +39,11 @@ class JointChoice {
       }
     }
     if (!seeds_[root]) {
-      tell(fmt::format("its topmost joints stand side by side; {}, above them, became the root",
-                       node_text(content_, root)));
+      note(fmt::format("its topmost joints are siblings; {}, above them, became the root", node_text(content_, root)));
     }
     if (skinned) {
       keep_moved_above(root, kept);
-      tell_of_moved_beside(kept);
+      report_moved_outside(kept);
     } else {
       keep_all_below(kept);
     }
@@ -54,7 +53,7 @@ class JointChoice {
       throw Error(ErrorCode::unsupported, fmt::format("{}: {} joints; at most {} can be stored", content_.name,
                                                       joints.size(), kMostStoredJoints));
     }
-    // The file's own order where it has parents first, so that what we wrote comes back as it was.
+    // Uses the file's own order if it has parents first, so that what we wrote is read back unchanged.
     const bool ordered =
         std::ranges::all_of(joints, [&](std::size_t node) { return node == joints[0] || forest_.parent[node] < node; });
     if (ordered) std::ranges::sort(joints);
@@ -62,7 +61,7 @@ class JointChoice {
   }
 
  private:
-  void tell(std::string text) { notices_.push_back({content_.name, std::move(text)}); }
+  void note(std::string text) { notices_.push_back({content_.name, std::move(text)}); }
 
   bool seed_skins() {
     bool any = false;
@@ -88,7 +87,7 @@ class JointChoice {
     return any;
   }
 
-  /// A face alone: the node of its mesh stands for a skeleton.
+  /// A face alone: the node of its mesh replaces a skeleton.
   void seed_meshes() {
     bool any = false;
     for (std::size_t node = 0; node < seeds_.size(); ++node) {
@@ -117,7 +116,7 @@ class JointChoice {
     return {nodes.begin(), nodes.end()};
   }
 
-  /// The top of the tree with most moved seeds, then most seeds, then in the scene that is shown.
+  /// The root of the tree with the most moved seeds, then the most seeds, then in the displayed scene.
   std::size_t best_tree(const char* what) {
     struct Count {
       std::size_t moved = 0, all = 0, shown = 0;
@@ -136,13 +135,13 @@ class JointChoice {
     const auto best = std::ranges::max_element(trees, [](const auto& a, const auto& b) { return a.second < b.second; });
     for (const auto& [top, count] : trees) {
       if (top == best->first) continue;
-      tell(fmt::format("{} with {} {} was left out: a motion has one root, and that is under {}",
+      note(fmt::format("{} with {} {} was left out: a motion has one root, and that is under {}",
                        node_text(content_, top), count.all, what, node_text(content_, best->first)));
     }
     return best->first;
   }
 
-  /// The lowest node that is above all seeds of a tree, or the only one.
+  /// The lowest node that is above all seeds of a tree, or the only seed.
   std::size_t common_node(std::size_t tree) const {
     std::vector<std::size_t> below(seeds_.size(), 0);
     std::size_t all = 0;
@@ -156,7 +155,7 @@ class JointChoice {
     bool found = false;
     for (auto at = forest_.order.rbegin(); at != forest_.order.rend(); ++at) {
       if (top_[*at] != tree) continue;
-      // Children come after their parents, so the first one met from behind that has all is the lowest.
+      // Children come after their parents, so the first node in reverse order that has all seeds is the lowest.
       if (!found && below[*at] == all) {
         lowest = *at;
         found = true;
@@ -175,7 +174,7 @@ class JointChoice {
     kept[highest] = true;
   }
 
-  void tell_of_moved_beside(const std::vector<bool>& kept) {
+  void report_moved_outside(const std::vector<bool>& kept) {
     std::size_t count = 0;
     std::size_t first = 0;
     for (std::size_t node = 0; node < kept.size(); ++node) {
@@ -183,11 +182,11 @@ class JointChoice {
       if (count++ == 0) first = node;
     }
     if (count == 0) return;
-    tell(fmt::format("{}{} moves but belongs to no skin, and was left out", node_text(content_, first),
+    note(fmt::format("{}{} moves but belongs to no skin, and was left out", node_text(content_, first),
                      count > 1 ? fmt::format(", like {} more,", count - 1) : std::string()));
   }
 
-  /// Below what is moved; a camera, light or mesh that hangs there is no joint.
+  /// Keeps all nodes below moved ones; cameras, lights and meshes there are not joints.
   void keep_all_below(std::vector<bool>& kept) const {
     std::vector<bool> inside(kept.size(), false);
     for (const std::size_t node : forest_.order) {

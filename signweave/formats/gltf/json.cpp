@@ -45,7 +45,7 @@ const WantedSection* wanted_section(std::string_view name) {
   return at == std::end(kWantedSections) ? nullptr : at;
 }
 
-/// Builds the wanted parts. Nothing here recurses, whatever the text does.
+/// Builds the wanted parts without recursion, whatever the text contains.
 class WantedBuilder {
  public:
   using number_integer_t = nlohmann::json::number_integer_t;
@@ -83,7 +83,7 @@ class WantedBuilder {
     const auto line = std::ranges::count(before, '\n') + 1;
     const std::size_t begin = before.rfind('\n') + 1;  // npos + 1 is 0
     throw Error(ErrorCode::bad_input,
-                fmt::format("{}:{}: no JSON from character {} on; the file is cut off or damaged, export it again",
+                fmt::format("{}:{}: not JSON from character {} on; the file is cut off or damaged, export it again",
                             file_, line, before.size() - begin));
   }
 
@@ -138,7 +138,7 @@ class WantedBuilder {
   template <typename Value>
   bool value(Value&& added) {
     if (skipped_ > 0 || here_unwanted()) return true;
-    if (open_.empty()) refuse_json("no glTF: the JSON is no object");
+    if (open_.empty()) refuse_json("not glTF: the JSON is not an object");
     if constexpr (std::is_same_v<std::decay_t<Value>, std::string>) count_part();
     add(std::forward<Value>(added));
     return true;
@@ -149,7 +149,7 @@ class WantedBuilder {
       ++skipped_;
       return true;
     }
-    if (open_.empty() && empty.is_array()) refuse_json("no glTF: the JSON is no object");
+    if (open_.empty() && empty.is_array()) refuse_json("not glTF: the JSON is not an object");
     if (open_.size() == kMostJsonDepth) refuse_json("JSON nested deeper than any glTF; export it again");
     count_part();
     const bool in_object = !open_.empty() && open_.back().value->is_object();
@@ -175,15 +175,15 @@ class WantedBuilder {
   nlohmann::json root_;
   std::vector<Open> open_;
   std::string key_;
-  bool wanted_ = true;       ///< what the last key names is kept
-  std::size_t skipped_ = 0;  ///< how many lists and objects of what is passed over are open
+  bool wanted_ = true;       ///< whether the value of the last key is kept
+  std::size_t skipped_ = 0;  ///< number of open lists and objects that are being skipped
   std::size_t parts_ = 0;
 };
 
 }  // namespace
 
 nlohmann::json parse_wanted(const std::string& file, std::string_view text) {
-  while (!text.empty() && text.back() == '\0') text.remove_suffix(1);  // some pad a GLB's JSON so
+  while (!text.empty() && text.back() == '\0') text.remove_suffix(1);  // some programs pad a GLB's JSON with zeros
   if (text.size() > kMostJsonBytes) {
     throw Error(ErrorCode::unsupported, fmt::format("{}: more than 256 MiB of JSON; export it as .glb", file));
   }

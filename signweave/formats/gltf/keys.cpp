@@ -13,7 +13,7 @@ namespace signweave::gltf {
 void require_finite(const Motion& motion) {
   const auto refuse = [](std::size_t frame, const std::string& what) {
     throw Error(ErrorCode::bad_input,
-                fmt::format("frame {}: {} is not a finite number; glTF has no other", frame, what));
+                fmt::format("frame {}: {} is not a finite number; glTF allows no other", frame, what));
   };
   const Skeleton& skeleton = motion.skeleton();
   const std::size_t joints = skeleton.joint_count();
@@ -40,7 +40,7 @@ bool rotation_keys(const Motion& motion, std::size_t joint, std::vector<Eigen::V
   for (std::size_t frame = 0; frame < keys.size(); ++frame) {
     const Eigen::Vector4d wanted = motion.rotations()[frame * joints + joint].coeffs().cast<double>();
     keys[frame] = wanted.normalized().cast<float>();
-    // q and -q are one rotation; a viewer blends neighbours as they are signed.
+    // q and -q are the same rotation, but a viewer interpolates neighbours with the signs they have.
     if (frame > 0 && keys[frame].dot(keys[frame - 1]) < 0) keys[frame] *= -1;
   }
   return std::any_of(keys.begin(), keys.end(), [&](const auto& key) { return key != keys[0]; });

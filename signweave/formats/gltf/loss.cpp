@@ -11,7 +11,7 @@
 namespace signweave::gltf {
 namespace {
 
-/// The largest distance of one kind, and whose it is.
+/// The largest distance of one kind, and its node.
 struct Loss {
   double most = 0;
   std::size_t node = kNoNode;
@@ -47,8 +47,8 @@ double degrees_off(const Curve& curve, double frame_seconds, std::size_t key, do
 
 }  // namespace
 
-void tell_of_loss(const Content& content, const Take& take, const std::vector<JointPlace>& places, const Timing& timing,
-                  bool rate_told, std::vector<Notice>& notices) {
+void report_loss(const Content& content, const Take& take, const std::vector<JointPlace>& places, const Timing& timing,
+                 bool rate_given, std::vector<Notice>& notices) {
   const double frame_seconds = timing.rate.frame_time().count();
   Loss turn;
   Loss place;
@@ -87,10 +87,10 @@ void tell_of_loss(const Content& content, const Take& take, const std::vector<Jo
   }
   std::string text =
       fmt::format("{} at {} frames a second, so at its keys the motion is off by up to {} and {}",
-                  rate_told ? "its keys do not stand" : "its keys stand unevenly and were read", to_string(timing.rate),
-                  turn.text(content, "degrees", 1), place.text(content, "mm", 1000));
+                  rate_given ? "its keys do not stand" : "its keys stand unevenly and were read",
+                  to_string(timing.rate), turn.text(content, "degrees", 1), place.text(content, "mm", 1000));
   if (weight.node != kNoNode) text += fmt::format(", its weights by {:.2g}", weight.most);
-  notices.push_back({content.name, std::move(text), rate_told ? Remedies{} : Remedies{{"source_rate", ""}}});
+  notices.push_back({content.name, std::move(text), rate_given ? Remedies{} : Remedies{{"source_rate", ""}}});
 }
 
 }  // namespace signweave::gltf

@@ -7,9 +7,9 @@
 
 namespace signweave::gltf {
 
-/// Tells how far the motion, interpolated between its frames, is at most from the file's own curves at their keys:
-/// for keys that do not stand at frames. `rate_told`: the rate was asked for.
-void tell_of_loss(const Content& content, const Take& take, const std::vector<JointPlace>& places, const Timing& timing,
-                  bool rate_told, std::vector<Notice>& notices);
+/// Reports, for keys that are not at frames, the largest distance at those keys between the motion, interpolated
+/// between its frames, and the file's own curves. `rate_given`: the caller gave the rate.
+void report_loss(const Content& content, const Take& take, const std::vector<JointPlace>& places, const Timing& timing,
+                 bool rate_given, std::vector<Notice>& notices);
 
 }  // namespace signweave::gltf

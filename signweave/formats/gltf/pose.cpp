@@ -15,20 +15,20 @@ using Eigen::Quaterniond;
 using Eigen::Quaternionf;
 using Eigen::Vector3f;
 
-constexpr std::int64_t kBlockFrames = 64;  // of all joints: so many fit into a processor's cache
+constexpr std::int64_t kBlockFrames = 64;  // of all joints: as many as fit into a processor's cache
 
 std::string joint_name(const Content& content, std::size_t node) {
   const std::string& name = content.model.nodes[node].name;
   return name.empty() ? fmt::format("node {}", node) : name;
 }
 
-/// Our writer makes a node called "Hand tip" of a tip, or "Hand tip 2" where there are two.
+/// Our writer names a tip's node "Hand tip", or "Hand tip 2" for a second one.
 bool is_tip_name(std::string_view name) {
   while (!name.empty() && name.back() >= '0' && name.back() <= '9') name.remove_suffix(1);
   return name.ends_with(" tip") || name.ends_with(" tip ");
 }
 
-/// Takes the tips out of the joints.
+/// Removes the tips from the joints.
 std::vector<Tip> take_tips(const Content& content, std::vector<JointPlace>& places) {
   std::vector<Tip> tips;
   if (!content.is_ours()) return tips;
@@ -64,8 +64,8 @@ class RotationFiller {
         still_(Quaterniond(place.turned * place.rotation).normalized().cast<float>()),
         as_keys_(place.rotation_curve && place.rotation_curve->times->one_a_frame && place.turned.vec().isZero(0)) {}
 
-  /// `out` is the joint's rotation in frame `begin`; that of the next frame lies `stride` farther. Each is in the
-  /// hemisphere of the one before, as `keep_hemisphere` would have it, without going through the motion again.
+  /// `out` is the joint's rotation in frame `begin`; successive frames are `stride` apart. Each rotation is in the
+  /// hemisphere of the previous one, as with `keep_hemisphere`, without a second pass over the motion.
   void fill(std::int64_t begin, std::int64_t end, Quaternionf* out, std::size_t stride) {
     if (!reader_) {
       for (std::int64_t frame = begin; frame < end; ++frame, out += stride) *out = still_;
@@ -73,20 +73,20 @@ class RotationFiller {
       for (std::int64_t frame = begin; frame < end; ++frame, out += stride) {
         const std::span<const float> key = place_->rotation_curve->key(static_cast<std::size_t>(frame));
         const Quaternionf rotation(key[3], key[0], key[1], key[2]);
-        // What is unit already keeps its bits, so that what we wrote comes back as it was.
+        // A rotation that is already unit keeps its bits, so that what we wrote is read back unchanged.
         const bool unit = std::abs(rotation.squaredNorm() - 1) < 1e-6f;
-        *out = beside_last(unit ? rotation : unit_rotation(key).cast<float>());
+        *out = nearest_to_last(unit ? rotation : unit_rotation(key).cast<float>());
       }
     } else {
       for (std::int64_t frame = begin; frame < end; ++frame, out += stride) {
         const Quaterniond rotation = place_->turned * reader_->rotation_at(static_cast<double>(frame));
-        *out = beside_last(rotation.normalized().cast<float>());
+        *out = nearest_to_last(rotation.normalized().cast<float>());
       }
     }
   }
 
  private:
-  Quaternionf beside_last(Quaternionf rotation) {
+  Quaternionf nearest_to_last(Quaternionf rotation) {
     if (last_.dot(rotation) < 0) rotation.coeffs() = -rotation.coeffs();
     last_ = rotation;
     return rotation;
@@ -95,7 +95,7 @@ class RotationFiller {
   const JointPlace* place_;
   std::optional<CurveReader> reader_;
   Quaternionf still_;
-  Quaternionf last_ = Quaternionf(0, 0, 0, 0);  ///< of the frame before; none yet
+  Quaternionf last_ = Quaternionf(0, 0, 0, 0);  ///< of the previous frame; zero before the first
   bool as_keys_;
 };
 
@@ -114,7 +114,7 @@ class TranslationFiller {
     return result.cast<float>();
   }
 
-  /// `out` is the translation in frame `begin`; that of the next frame lies `stride` farther.
+  /// `out` is the translation in frame `begin`; successive frames are `stride` apart.
   void fill(std::int64_t begin, std::int64_t end, Vector3f* out, std::size_t stride) {
     for (std::int64_t frame = begin; frame < end; ++frame, out += stride) *out = at(static_cast<double>(frame));
   }

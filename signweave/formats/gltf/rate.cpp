@@ -11,7 +11,7 @@ namespace {
 
 using AllTimes = std::span<const std::shared_ptr<KeyTimes>>;
 
-/// Those that keys are looked for at, ascending.
+/// The rates that are tried for keys, ascending.
 constexpr FrameRate kKeyRates[] = {{10, 1},       {12, 1},  {15, 1},  {20, 1},  {24000, 1001},  {24, 1},  {25, 1},
                                    {30000, 1001}, {30, 1},  {48, 1},  {50, 1},  {60000, 1001},  {60, 1},  {72, 1},
                                    {75, 1},       {90, 1},  {96, 1},  {100, 1}, {120000, 1001}, {120, 1}, {125, 1},
@@ -20,17 +20,17 @@ constexpr FrameRate kKeyRates[] = {{10, 1},       {12, 1},  {15, 1},  {20, 1},  
 
 constexpr FrameRate kRateOfOneKey{30, 1};
 constexpr FrameRate kRateOfUnevenKeys{120, 1};
-constexpr double kKeySlack = 1e-3;      // of a frame, beside what a float cannot tell
+constexpr double kKeySlack = 1e-3;      // of a frame, in addition to the precision of a float
 constexpr double kRoundedSlack = 0.06;  // of a frame: 0.033 s for a thirtieth
 
-/// How far from its frame a key may be that is meant to stand there, frames.
+/// The distance in frames within which a key counts as being at a frame.
 double key_slack(float seconds, double hertz, double slack) {
   const double step = static_cast<double>(std::nextafter(seconds, std::numeric_limits<float>::infinity())) -
                       static_cast<double>(seconds);
   return std::min(slack + step * hertz, 0.25);
 }
 
-/// How far the farthest key is from a frame, where each is no farther than it may be that is meant to stand there.
+/// The largest distance of a key from its frame; nullopt if any key is too far from its frame to be meant for it.
 std::optional<double> farthest_key(AllTimes all, double start, double hertz, double slack) {
   double farthest = 0;
   for (const auto& times : all) {
@@ -52,7 +52,7 @@ double span_of_keys(const KeyTimes& times) {
   return static_cast<double>(times.seconds.back()) - static_cast<double>(times.seconds.front());
 }
 
-/// The list with the most keys: what is told of density is told by it.
+/// The list with the most keys, which represents the density of all.
 const KeyTimes& fullest(AllTimes all) {
   return **std::ranges::max_element(all, {}, [](const auto& times) { return times->seconds.size(); });
 }
@@ -65,7 +65,7 @@ bool every_frame(const KeyTimes& times, double hertz) {
   return std::abs(span_of_keys(times) * hertz - static_cast<double>(times.seconds.size() - 1)) < 0.5;
 }
 
-/// The lowest standard rate at which keys stand. A few keys stand at 29.97 as well as at 30: the nearer one is taken.
+/// The lowest standard rate that fits the keys. A few keys fit both 29.97 and 30: the nearer one is taken.
 std::optional<FrameRate> standard_rate(AllTimes all, double start, KeyHabits habits) {
   std::optional<FrameRate> found;
   double nearest = 0;
@@ -95,7 +95,7 @@ std::optional<FrameRate> simplest_between(double low, double high) {
   return std::nullopt;
 }
 
-/// A rate that is in no list, of keys that stand evenly.
+/// A non-standard rate for evenly spaced keys.
 std::optional<FrameRate> rate_of_even_keys(AllTimes all, double start) {
   const KeyTimes& times = fullest(all);
   const double span = span_of_keys(times);
@@ -120,8 +120,8 @@ FrameRate rate_of_uneven_keys(AllTimes all, double start) {
 
 }  // namespace
 
-Timing timing_of(AllTimes times, KeyHabits habits, std::optional<FrameRate> told) {
-  Timing timing{.rate = told.value_or(kRateOfOneKey), .start = std::numeric_limits<double>::infinity()};
+Timing timing_of(AllTimes times, KeyHabits habits, std::optional<FrameRate> given) {
+  Timing timing{.rate = given.value_or(kRateOfOneKey), .start = std::numeric_limits<double>::infinity()};
   double end = 0;
   for (const auto& one : times) {
     timing.start = std::min(timing.start, static_cast<double>(one->seconds.front()));
@@ -131,17 +131,19 @@ Timing timing_of(AllTimes times, KeyHabits habits, std::optional<FrameRate> told
   std::vector<std::shared_ptr<KeyTimes>> lists;
   std::ranges::copy_if(times, std::back_inserter(lists), [](const auto& one) { return one->seconds.size() > 1; });
   if (lists.empty()) {
-    timing.told_by_keys = false;
+    timing.known_from_keys = false;
     if (!(end > timing.start)) return timing;
     lists.assign(times.begin(), times.end());
   }
-  if (!told) {
+  if (!given) {
     std::optional<FrameRate> found = standard_rate(lists, timing.start, habits);
-    if (!found && timing.told_by_keys) found = rate_of_even_keys(lists, timing.start);
+    if (!found && timing.known_from_keys) found = rate_of_even_keys(lists, timing.start);
     timing.even = found.has_value();
-    timing.rate = found ? *found : timing.told_by_keys ? rate_of_uneven_keys(lists, timing.start) : kRateOfUnevenKeys;
+    timing.rate = found                    ? *found
+                  : timing.known_from_keys ? rate_of_uneven_keys(lists, timing.start)
+                                           : kRateOfUnevenKeys;
   } else {
-    timing.even = keys_stand(lists, timing.start, told->hertz(), kKeySlack);
+    timing.even = keys_stand(lists, timing.start, given->hertz(), kKeySlack);
   }
   const double hertz = timing.rate.hertz();
   const double last = (end - timing.start) * hertz;

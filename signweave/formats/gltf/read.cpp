@@ -20,7 +20,7 @@
 namespace signweave::gltf {
 namespace {
 
-/// Bodies lower or taller than this are hardly in metres.
+/// Bodies lower or taller than this are unlikely to be in metres.
 constexpr float kLowestBody = 0.05f;
 constexpr float kTallestBody = 4.0f;
 
@@ -32,7 +32,7 @@ void check_options(const ReadOptions& options) {
   }
   if (options.rate && !(options.rate->numerator > 0 && options.rate->denominator > 0 && options.rate->hertz() >= 1e-4 &&
                         options.rate->hertz() <= 1e6)) {
-    throw Error(ErrorCode::bad_input, "a rate that is none; give frames a second between 1e-4 and 1e6");
+    throw Error(ErrorCode::bad_input, "an invalid rate; give frames a second between 1e-4 and 1e6");
   }
 }
 
@@ -57,8 +57,8 @@ bool is_any_cubic(const Take& take) {
                              [](const auto& curve) { return curve->interpolation == Interpolation::cubic; });
 }
 
-void tell_of_timing(const std::string& name, const Timing& timing, const ReadOptions& options, bool one_pose,
-                    std::vector<Notice>& notices) {
+void report_timing(const std::string& name, const Timing& timing, const ReadOptions& options, bool one_pose,
+                   std::vector<Notice>& notices) {
   if (timing.start > 0) {
     notices.push_back(
         {name, fmt::format("its first key is at {:.6g} seconds; that is the motion's first frame", timing.start)});
@@ -70,24 +70,24 @@ void tell_of_timing(const std::string& name, const Timing& timing, const ReadOpt
   }
 }
 
-void tell_of_size(const std::string& name, const Motion& motion, const ReadOptions& options,
-                  std::vector<Notice>& notices) {
+void report_size(const std::string& name, const Motion& motion, const ReadOptions& options,
+                 std::vector<Notice>& notices) {
   if (options.unit || motion.skeleton().joint_count() < 2) return;
   const float size = size_of_first_pose(motion);
   if (size >= kLowestBody && size <= kTallestBody) return;
   const auto fits = [&](float factor) { return size * factor >= 0.3f && size * factor <= 3.0f; };
   const char* const unit = fits(0.01f) ? "centimetres" : fits(0.001f) ? "millimetres" : fits(0.0254f) ? "inches" : "";
-  const char* const told = fits(0.01f) ? "0.01" : fits(0.001f) ? "0.001" : fits(0.0254f) ? "0.0254" : "";
+  const char* const suggested = fits(0.01f) ? "0.01" : fits(0.001f) ? "0.001" : fits(0.0254f) ? "0.0254" : "";
   std::string text = fmt::format("its joints span {:.3g} metres", size);
   text += *unit == '\0' ? "; check its unit" : fmt::format(", as if it were in {}", unit);
-  notices.push_back({name, std::move(text), {{"unit", told}}});
+  notices.push_back({name, std::move(text), {{"unit", suggested}}});
 }
 
 std::filesystem::path folder_of(const std::filesystem::path& path) {
   return path.has_parent_path() ? path.parent_path() : std::filesystem::path(".");
 }
 
-/// A file's bytes, read at once: what grows while it is read is copied again and again, and a GLB may be large.
+/// A file's bytes, read at once: a buffer that grows while reading is copied repeatedly, and a GLB may be large.
 struct WholeFile {
   std::unique_ptr<char[]> bytes;
   std::size_t size = 0;
@@ -101,7 +101,7 @@ WholeFile whole_file(const std::filesystem::path& path) {
     WholeFile whole{std::make_unique_for_overwrite<char[]>(size), size};
     if (file && std::fread(whole.bytes.get(), 1, size, file.get()) == size) return whole;
   }
-  const std::string text = read_file(path);  // tells what is wrong, or reads what has no size
+  const std::string text = read_file(path);  // reports the error, or reads a file without a size
   WholeFile whole{std::make_unique_for_overwrite<char[]>(text.size()), text.size()};
   std::ranges::copy(text, whole.bytes.get());
   return whole;
@@ -119,20 +119,20 @@ ReadFile read_content(const Content& content, const ReadOptions& options) {
   const std::vector<std::size_t> joints = joints_of(content, forest, take, file.notices);
   const double unit = options.unit.value_or(1.0);
   std::vector<JointPlace> places = joint_places(content, forest, take, joints, unit, file.notices);
-  look_at_bind_poses(content, forest, accessors, unit, file.notices);
+  check_bind_poses(content, forest, accessors, unit, file.notices);
 
   const std::vector<std::shared_ptr<KeyTimes>> times = times_of_used(take, places);
   const KeyHabits habits{.smooth = is_any_cubic(take), .key_a_frame = content.is_ours()};
   const Timing timing = timing_of(times, habits, options.rate);
   for (const auto& one : times) place_keys(*one, timing);
-  tell_of_timing(name, timing, options, !timing.told_by_keys && timing.frames == 1, file.notices);
+  report_timing(name, timing, options, !timing.known_from_keys && timing.frames == 1, file.notices);
 
   file.motion = motion_of(content, places, timing, budget, options.progress);
   for (ScalarTrack& track : tracks_of(content, take, timing, budget, file.notices)) {
     file.motion.add_track(std::move(track));
   }
-  if (!timing.even) tell_of_loss(content, take, places, timing, options.rate.has_value(), file.notices);
-  tell_of_size(name, file.motion, options, file.notices);
+  if (!timing.even) report_loss(content, take, places, timing, options.rate.has_value(), file.notices);
+  report_size(name, file.motion, options, file.notices);
   if (options.progress) options.progress(1.0);
   return file;
 }
@@ -160,7 +160,7 @@ std::vector<std::filesystem::path> files_of(const std::filesystem::path& path) {
       if (known.insert(buffer).second) files.push_back(std::move(buffer));
     }
   } catch (const Error&) {
-    // What is wrong with it is told when it is read.
+    // Reading the file reports what is wrong with it.
   }
   return files;
 }

@@ -53,7 +53,7 @@ class RandomFile {
   }
 
  private:
-  /// Some helpers above each other, then a tree; the skin tells which nodes are joints.
+  /// Adds a chain of helpers, then a tree; the skin determines which nodes are joints.
   void add_nodes() {
     helpers_ = static_cast<std::size_t>(*rc::gen::inRange(0, 3));
     const auto count = helpers_ + static_cast<std::size_t>(*rc::gen::inRange(1, 12));
@@ -85,7 +85,7 @@ class RandomFile {
     json_["skins"] = {{{"joints", joints}}};
   }
 
-  /// At a standard rate with or without gaps, or at any milliseconds.
+  /// Times at a standard rate with or without gaps, or at arbitrary milliseconds.
   void add_times() {
     const int count = *rc::gen::inRange(1, 8);
     const bool even = *rc::gen::inRange(0, 3) > 0;
@@ -108,11 +108,11 @@ class RandomFile {
     std::vector<float> values;
     for (std::size_t key = 0; key < key_counts_[list] * (cubic ? 3 : 1); ++key) {
       std::vector<float> value = {number(), number(), number()};
-      // In steps that no reader takes for rounding.
+      // In steps too large to be mistaken for rounding.
       if (path[0] == 's')
         value.assign(3, (cubic && key % 3 != 1 ? 0.0f : 1.0f) + 0.05f * static_cast<float>(*rc::gen::inRange(-10, 11)));
       if (turns) value = random_turn();
-      // Tangents that do not throw a quaternion through zero.
+      // Tangents that do not lead a quaternion through zero.
       if (cubic && key % 3 != 1) {
         for (float& one : value) one *= 0.1f;
       }
@@ -186,8 +186,8 @@ bool grows(const tinygltf::Model& model, const tinygltf::AnimationSampler& sampl
   return false;
 }
 
-/// The times of all keys of curves that move a joint, ascending. A scale does where it changes and other joints are
-/// below.
+/// The times of all keys of curves that move a joint, ascending. A scale moves joints if it changes and other joints
+/// are below.
 std::vector<double> keys_of_joints(const tinygltf::Model& model, const Motion& motion) {
   std::vector<double> keys;
   for (const tinygltf::AnimationChannel& channel : model.animations[0].channels) {
@@ -201,8 +201,8 @@ std::vector<double> keys_of_joints(const tinygltf::Model& model, const Motion& m
   return keys;
 }
 
-/// Whether a key is so near to a frame that the reader takes it to stand there, without being there. A curve that is
-/// steep, or a step, is then elsewhere in that frame.
+/// Whether the reader would treat a key as being at a frame although it is only close to one. A steep curve, or a step,
+/// then has a different value in that frame.
 bool is_any_key_moved(const std::vector<double>& keys, double start, double hertz) {
   return std::ranges::any_of(keys, [&](double key) {
     const double frame = (key - start) * hertz;
@@ -211,7 +211,8 @@ bool is_any_key_moved(const std::vector<double>& keys, double start, double hert
   });
 }
 
-// Where each joint is and how it is turned, of a random tree with scales, matrices, helpers and curves of all kinds.
+// Compares position and rotation of each joint, for a random tree with scales, matrices, helpers and curves of all
+// kinds.
 RC_GTEST_PROP(GltfReadProperty, KinematicsAreThoseOfAnIndependentEvaluator, ()) {
   const std::string bytes = RandomFile().make();
   testing_gltf::Evaluator evaluator(bytes);
@@ -223,8 +224,8 @@ RC_GTEST_PROP(GltfReadProperty, KinematicsAreThoseOfAnIndependentEvaluator, ()) 
   const double hertz = file.motion.rate().hertz();
   RC_PRE(!is_any_key_moved(keys, start, hertz));
   const auto time_of = [&](double frame) { return start + frame / hertz; };
-  // A key that differs from a frame by a float's rounding alone stands there: a step, or a steep curve, tells the two
-  // apart.
+  // A key that differs from a frame only by a float's rounding is at that frame: with a step or a steep curve the
+  // difference matters.
   evaluator.move_keys([&](double second) {
     const double frame = std::round((second - start) * hertz);
     return std::abs(second - time_of(frame)) < 1e-6 ? time_of(frame) : second;
@@ -274,7 +275,7 @@ Motion random_motion() {
     }
     for (Vector3f& translation : pose.translations) translation = {number(), number(), number()};
   }
-  // So that the rate is to be seen in the keys.
+  // So that the keys determine the rate.
   motion.pose(0).rotations[0] = Quaternionf(1, 0, 0, 0);
   motion.pose(1).rotations[0] = Quaternionf(0, 1, 0, 0);
   keep_hemisphere(motion);
@@ -287,7 +288,7 @@ Motion random_motion() {
   return motion;
 }
 
-// What our own writer wrote comes back: skeleton, rate, poses, tips, tracks.
+// What our own writer wrote is read back: skeleton, rate, poses, tips, tracks.
 RC_GTEST_PROP(GltfReadProperty, WhatWasWrittenComesBack, ()) {
   const Motion motion = random_motion();
   const Container container = *rc::gen::element(Container::binary, Container::text);

@@ -12,9 +12,9 @@ using Eigen::Matrix3d;
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
 
-constexpr double kSameScale = 1e-4;      // relative: exporters' rounding, told from 1e-6 on
+constexpr double kSameScale = 1e-4;      // relative: exporters' rounding, reported from 1e-6 on
 constexpr double kShearSlack = 1e-5;     // cosine between the axes of a matrix
-constexpr float kStillRotation = 1e-6f;  // a part of a quaternion
+constexpr float kStillRotation = 1e-6f;  // a component of a quaternion
 constexpr double kStillPlace = 5e-7;     // metres
 
 bool is_uniform(const Vector3d& scale) {
@@ -35,13 +35,14 @@ struct NodeStill {
   const Curve* scale_curve = nullptr;
 };
 
-/// Walks down the nodes and keeps what is above them.
+/// Visits the nodes from the roots down, with the scales above each.
 class SpaceWalk {
  public:
   SpaceWalk(const Content& content, const Take& take, std::vector<Notice>& notices)
       : content_(content), take_(take), notices_(notices) {}
 
-  /// What stands above a node: its children's own translations times `scale`, and who made that differ by axis.
+  /// The state above a node: its children's own translations are multiplied by `scale`; also the node that made the
+  /// scale differ by axis.
   struct Above {
     Vector3d scale;
     std::size_t origin = kNoNode;
@@ -73,7 +74,7 @@ class SpaceWalk {
     return still;
   }
 
-  /// What stands above the children of a node that has any. `shared`: all joints hang on it.
+  /// The state above the children of a node that has any. `shared`: all joints are below it.
   Above below(std::size_t node, NodeStill still, const Above& above, bool shared) {
     if (still.scale_curve) {
       const Curve& curve = *still.scale_curve;
@@ -118,7 +119,7 @@ class SpaceWalk {
     return {scale, above.origin};
   }
 
-  /// The scale above a node along its own axes. Only where these are the parent's, in any order, is that no shear.
+  /// The scale above a node along its own axes. Only if these are the parent's, in any order, is there no shear.
   Vector3d turned_scale(std::size_t node, const NodeStill& still, const Above& above) const {
     if (is_uniform(above.scale)) return above.scale;
     const Matrix3d turn = still.rotation.toRotationMatrix();
@@ -202,7 +203,7 @@ std::vector<JointPlace> joint_places(const Content& content, const NodeForest& f
   for (std::size_t i = 1; i < joints.size(); ++i) {
     has_children[static_cast<std::size_t>(joint_of[forest.parent[joints[i]]])] = true;
   }
-  // Joint i and all before it are one chain, on which all others hang.
+  // Joint i and all joints before it form one chain, which has all others below it.
   std::vector<bool> shared(joints.size(), false);
   JointIndex highest = static_cast<JointIndex>(joints.size());  // of the parents of the joints after i
   for (std::size_t i = joints.size(); i-- > 0;) {

@@ -12,7 +12,8 @@
 namespace signweave::gltf {
 namespace {
 
-constexpr double kLongestTake = 24 * 60 * 60;  // seconds; a float cannot tell frames any more long before
+constexpr double kLongestTake =
+    24 * 60 * 60;  // seconds; a float's precision is insufficient for frames long before that
 constexpr std::size_t kTakesNamed = 8;
 
 [[noreturn]] void refuse_take(const Content& content, const std::string& what, ErrorCode code = ErrorCode::bad_input) {
@@ -128,7 +129,7 @@ class TakeReader {
     if (times) return times;
     const tinygltf::Accessor& of = content_.model.accessors[static_cast<std::size_t>(accessor)];
     const std::string place = fmt::format("accessor {}", accessor);
-    // Without a view all is 0 but for the sparse elements, so most times would be the same.
+    // Without a view all elements are 0 except the sparse ones, so most times would be equal.
     const bool zeros = of.bufferView < 0 &&
                        of.count > (of.sparse.isSparse ? static_cast<std::size_t>(std::max(of.sparse.count, 0)) : 0) + 1;
     if (zeros) refuse(place, "its key times do not ascend; export it again");
@@ -164,13 +165,13 @@ class TakeReader {
     } else if (path == "rotation") {
       curve.parts = 4;
       wanted = {.type = TINYGLTF_TYPE_VEC4, .normalized_too = true, .count = rows};
-      wanted.looked_at_later = curve.interpolation != Interpolation::cubic;  // whose tangents are not
+      wanted.checked_by_caller = curve.interpolation != Interpolation::cubic;  // check_rotations skips their tangents
     } else {
       curve.parts = 3;
       wanted = {.type = TINYGLTF_TYPE_VEC3, .count = rows};
     }
     curve.values = accessors_.read(accessor, wanted).values;
-    // Many channels may name one accessor, and each is looked at by itself.
+    // Many channels may refer to one accessor, and each is examined separately.
     budget_.spend(curve.values.size(), sizeof(float), curve.place);
     if (path == "rotation") check_rotations(curve);
   }

@@ -11,7 +11,7 @@
 
 namespace signweave::gltf {
 
-/// What moves one node.
+/// The curves that move one node.
 struct NodeCurves {
   const Curve* translation = nullptr;
   const Curve* rotation = nullptr;
@@ -29,9 +29,9 @@ struct Take {
   std::vector<NodeCurves> nodes;  ///< [node]
 };
 
-/// The animation that is asked for, by name or by number from 1; the first where `wanted` is empty, and then a notice
-/// names the others. Throws Error{not_found} where there is none such, Error{bad_input} where the file has none or its
-/// keys are broken.
+/// The requested animation, by name or by number from 1; the first if `wanted` is empty, and then a notice names the
+/// others. Throws Error{not_found} if there is no such animation, Error{bad_input} if the file has none or its keys are
+/// invalid.
 Take take_of(const Content& content, Accessors& accessors, Budget& budget, const std::string& wanted,
              std::vector<Notice>& notices);
 

@@ -1,6 +1,6 @@
 #pragma once
 
-// An evaluator of glTF for tests, in double precision and apart from what reads it: tinygltf loads the file, and every
+// An evaluator of glTF for tests, in double precision and independent of the reader: tinygltf loads the file, and every
 // node's matrix is multiplied out as the specification says.
 
 #include <gtest/gtest.h>
@@ -30,7 +30,7 @@ class Evaluator {
 
   const tinygltf::Model& model() const { return model_; }
 
-  /// From now on `moved` says at which second a key stands, given the second that the file says.
+  /// From now on `moved` gives the second at which a key lies, from the second that the file gives.
   void move_keys(std::function<double(double)> moved) { moved_ = std::move(moved); }
 
   /// model_from_node of every node, the first animation being at `time` seconds.

@@ -1,6 +1,6 @@
 #pragma once
 
-// A reader of glTF for tests, apart from what writes it: accessors as numbers, animation sampled, nodes in the scene.
+// A reader of glTF for tests, independent of the writer: accessors as numbers, sampled animation, nodes in the scene.
 
 #include <gtest/gtest.h>
 #include <tiny_gltf.h>
@@ -40,7 +40,7 @@ inline tinygltf::Model written(const Motion& motion, const gltf::WriteOptions& o
   return loaded(gltf::to_bytes(motion, options, gltf::Container::binary));
 }
 
-/// What an accessor's elements hold, as numbers.
+/// The elements of an accessor as numbers.
 inline std::vector<std::vector<float>> elements(const tinygltf::Model& model, int index) {
   const tinygltf::Accessor& accessor = model.accessors.at(static_cast<std::size_t>(index));
   const tinygltf::BufferView& view = model.bufferViews.at(static_cast<std::size_t>(accessor.bufferView));
@@ -72,7 +72,7 @@ inline std::vector<float> sampled(const tinygltf::Model& model, const tinygltf::
   EXPECT_EQ(sampler.interpolation, "LINEAR");
   const auto times = elements(model, sampler.input);
   const auto keys = elements(model, sampler.output);
-  const std::size_t width = keys.size() / times.size();  // morph weights have several a key
+  const std::size_t width = keys.size() / times.size();  // morph weights have several per key
   std::size_t after = 0;
   while (after < times.size() && times[after][0] <= time) ++after;
   const std::size_t before = after == 0 ? 0 : after - 1;
@@ -92,7 +92,7 @@ inline Vector3f vector_of(const std::vector<double>& v) {
   return v.empty() ? Vector3f(0, 0, 0) : Vector3f(Eigen::Vector3d(v[0], v[1], v[2]).cast<float>());
 }
 
-/// Where each node is in the scene; with the animation at a time, or without.
+/// The transform of each node in the scene, with the animation at a time or without it.
 inline std::vector<Affine3f> globals(const tinygltf::Model& model, std::optional<float> time) {
   std::vector<Affine3f> locals;
   for (const tinygltf::Node& node : model.nodes) {
@@ -129,7 +129,7 @@ inline float time_of(const Motion& motion, std::int64_t frame) {
   return static_cast<float>(static_cast<double>(frame) * motion.rate().frame_time().count());
 }
 
-/// The farthest that a joint or tip is from where forward kinematics puts it, at a frame.
+/// The largest distance at a frame between a joint or tip and its position by forward kinematics.
 inline float farthest(const Motion& motion, const tinygltf::Model& model, std::int64_t frame) {
   const ModelPose pose = to_model_space(motion.skeleton(), motion.pose(frame));
   const std::vector<Affine3f> nodes = globals(model, time_of(motion, frame));

@@ -15,7 +15,7 @@ namespace {
 /// Collects tracks, each name once.
 class TrackList {
  public:
-  /// `other` is the name of a track whose name another one with other values has.
+  /// `other` is the name to use if the track's own is taken by one with other values.
   void add(ScalarTrack track, const std::string& other) {
     const auto known = by_name_.find(track.name);
     if (known == by_name_.end()) return insert(std::move(track));
@@ -57,14 +57,14 @@ void add_weight_tracks(const std::string& file, const Curve& curve, const MorphM
   }
 }
 
-/// A track of the extras as our writer leaves it; none where it is another's.
-struct ToldTrack {
+/// A track of the extras as written by our writer; nullopt if it has another form.
+struct ExtrasTrack {
   const std::string* name = nullptr;
   double hertz = 0;
   const nlohmann::json* values = nullptr;
 };
 
-std::optional<ToldTrack> told_track(const nlohmann::json& json) {
+std::optional<ExtrasTrack> extras_track(const nlohmann::json& json) {
   if (!json.is_object()) return std::nullopt;
   const auto name = json.find("name");
   const auto rate = json.find("rate");
@@ -77,13 +77,13 @@ std::optional<ToldTrack> told_track(const nlohmann::json& json) {
     return value.is_number() && std::abs(value.get<double>()) <= std::numeric_limits<float>::max();
   };
   if (!std::ranges::all_of(*values, is_float)) return std::nullopt;
-  return ToldTrack{&name->get_ref<const std::string&>(), hertz, &*values};
+  return ExtrasTrack{&name->get_ref<const std::string&>(), hertz, &*values};
 }
 
 /// Its values at the frames, the first one at frame 0: linear between, the last one held.
-std::vector<float> told_values(const ToldTrack& told, const Timing& timing) {
-  const nlohmann::json& values = *told.values;
-  const double step = told.hertz / timing.rate.hertz();
+std::vector<float> extras_values(const ExtrasTrack& extra, const Timing& timing) {
+  const nlohmann::json& values = *extra.values;
+  const double step = extra.hertz / timing.rate.hertz();
   const bool same = std::abs(step - 1) < 1e-9;
   std::vector<float> result;
   result.reserve(static_cast<std::size_t>(timing.frames));
@@ -115,13 +115,13 @@ std::vector<ScalarTrack> tracks_of(const Content& content, const Take& take, con
   if (extras.is_null()) return list.take();
   std::size_t odd = 0;
   for (const nlohmann::json& json : extras) {
-    const std::optional<ToldTrack> told = told_track(json);
-    if (!told) {
+    const std::optional<ExtrasTrack> extra = extras_track(json);
+    if (!extra) {
       ++odd;
       continue;
     }
     budget.spend(static_cast<std::uint64_t>(timing.frames), sizeof(float), "its tracks");
-    list.add({.name = *told->name, .values = told_values(*told, timing)}, "tracks." + *told->name);
+    list.add({.name = *extra->name, .values = extras_values(*extra, timing)}, "tracks." + *extra->name);
   }
   if (odd > 0) {
     notices.push_back({content.name, fmt::format("animation {}: {} 'tracks' in its extras that are not name, rate and "

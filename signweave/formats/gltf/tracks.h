@@ -9,9 +9,9 @@
 
 namespace signweave::gltf {
 
-/// Scalar tracks of a take: its morph weights, called like the targets or else MESH.weight.N, and the `tracks` in the
-/// animation's extras, both at the motion's frames. Of two tracks of one name and the same values one is kept; else the
-/// later one gets its mesh's name before its own.
+/// Scalar tracks of a take, at the motion's frames: its morph weights, named after the targets or else MESH.weight.N,
+/// and the `tracks` in the animation's extras. Of two tracks with the same name and values one is kept; if the values
+/// differ, the later one is prefixed with its mesh's name.
 std::vector<ScalarTrack> tracks_of(const Content& content, const Take& take, const Timing& timing, Budget& budget,
                                    std::vector<Notice>& notices);
 

@@ -15,7 +15,7 @@ namespace {
   throw Error(ErrorCode::bad_input, fmt::format("{}: {}", place, what));
 }
 
-/// A letter of base64 as its six bits; below 0 for any other.
+/// The six bits of a base64 character; negative for any other.
 int six_bits(char c) {
   if (c >= 'A' && c <= 'Z') return c - 'A';
   if (c >= 'a' && c <= 'z') return c - 'a' + 26;
@@ -60,7 +60,7 @@ std::string data_of_uri(const std::string& place, std::string_view uri) {
   int held = 0;
   for (const char c : coded) {
     const int six = six_bits(c);
-    if (six < 0) refuse_uri(place, "its data is damaged: no base64; export the file again");
+    if (six < 0) refuse_uri(place, "its data is damaged: not base64; export the file again");
     bits = (bits << 6) | static_cast<std::uint32_t>(six);
     held += 6;
     if (held < 8) continue;
@@ -77,7 +77,7 @@ std::filesystem::path path_of_uri(const std::string& place, std::string_view uri
   const bool outside = text.empty() || text.find('\0') != text.npos || text.find(':') != text.npos ||
                        relative.is_absolute() || relative.begin() == relative.end() || *relative.begin() == "..";
   if (outside) {
-    refuse_uri(place, fmt::format("'{}' is no file in its folder; put it there and name it so", printable(text)));
+    refuse_uri(place, fmt::format("'{}' is not a file in its folder; put it there under that name", printable(text)));
   }
   return folder / relative;
 }

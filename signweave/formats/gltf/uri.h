@@ -6,14 +6,14 @@
 
 namespace signweave::gltf {
 
-/// True for what holds its bytes itself: "data:application/octet-stream;base64,AAAA".
+/// True for a URI that contains its bytes: "data:application/octet-stream;base64,AAAA".
 bool is_data_uri(std::string_view uri);
 
-/// The bytes of such. `place` stands before an error's text. Throws Error{bad_input}.
+/// The bytes of a data URI. `place` is the prefix of an error's text. Throws Error{bad_input}.
 std::string data_of_uri(const std::string& place, std::string_view uri);
 
-/// The file that a relative URI means, in `folder` or below. Throws Error{bad_input} where it would lie elsewhere, or
-/// where `folder` is empty.
+/// The file that a relative URI refers to, in `folder` or below. Throws Error{bad_input} if it would lie elsewhere, or
+/// if `folder` is empty.
 std::filesystem::path path_of_uri(const std::string& place, std::string_view uri, const std::filesystem::path& folder);
 
 }  // namespace signweave::gltf

@@ -1,4 +1,4 @@
-// Face units as what they add to each part's points.
+// Face units as displacements of each part's points.
 import { apply } from '../shape/stencil.js';
 import { add, at, rotated, smoothstep, sub } from '../shape/normals.js';
 import { UNITS } from './units.js';
@@ -10,7 +10,7 @@ const LEAST = 0.00005;
 const SEAM = 0.012;
 
 /**
- * @param {object} character what build_character has gathered: base, targets, person, skeleton, parts
+ * @param {object} character data gathered by build_character: base, targets, person, skeleton, parts
  * @returns {Map<string, Map<string, Float64Array>>} part name → unit name → three numbers a point, metres
  */
 export function faceMorphs(character, parts) {
@@ -30,7 +30,7 @@ export function faceMorphs(character, parts) {
   return out;
 }
 
-/** Sum of shape targets on the base mesh; `unit/x` is the expression unit x, mixed by origin. */
+/** Returns the sum of shape targets on the base mesh; `unit/x` is the expression unit x, mixed by origin. */
 function targetSum({ targets, base, origins }, weights) {
   const sum = new Float64Array(base.points.length);
   const addTarget = (name, weight) => {
@@ -56,7 +56,7 @@ function unitOnPart(unit, baseSum, part, { skeleton }, marks, other) {
   return sum;
 }
 
-/** What turning one joint does to the points that hang on it. */
+/** Adds the displacement that the rotation of one joint causes to its points. */
 function addTurn(sum, part, skeleton, jointName, axis, angle) {
   const joint = skeleton.joints.findIndex(({ name }) => name === jointName);
   if (joint < 0) throw new Error(`${jointName}: no such joint`);
@@ -71,7 +71,7 @@ function addTurn(sum, part, skeleton, jointName, axis, angle) {
   }
 }
 
-/** Heights and depths of the face that some shapes need, metres, model space; from vertices of the base mesh. */
+/** Returns heights and depths of the face used by some shapes, metres, model space; from vertices of the base mesh. */
 export function faceMarks({ base, targets }) {
   const lower = strongest(targets.read('mouth/mouth-lowerlip-middle-up'));
   const upper = strongest(targets.read('mouth/mouth-upperlip-middle-down'));

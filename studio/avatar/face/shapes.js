@@ -1,7 +1,7 @@
-// Face units that no shape target holds. Each takes a part at rest and gives what it adds to the points.
+// Face units without a shape target. Each takes a part at rest and returns the displacement of its points.
 import { smoothstep } from '../shape/normals.js';
 
-/** What of a part a shape may look at. `sum` is what the unit's targets gave so far; `unit(name)` that of another unit. */
+/** The properties of a part available to a shape. `sum` is the displacement from the unit's targets so far; `unit(name)` that of another unit. */
 
 /** Multiplies the sum by `share(point, i)`. */
 function masked({ points, sum }, share) {
@@ -13,7 +13,7 @@ function masked({ points, sum }, share) {
   return out;
 }
 
-/** The jaw moves to one side: how much of it a point has is how far it goes down when the jaw opens. */
+/** The jaw moves to one side: the displacement of a point is proportional to its lowering when the jaw opens. */
 function jawSideways(sign) {
   return (context) => {
     const open = context.unit('jawOpen');
@@ -44,8 +44,8 @@ function frown(sign) {
 }
 
 /**
- * A part of the forehead with its brow slides up over the skull, which slopes back. `share(x)` says how much by distance from
- * the middle, so that inner and outer parts add up to a whole raised brow.
+ * A part of the forehead with its brow slides up over the skull, which slopes back. `share(x)` is the fraction by distance from the middle, so that inner and
+ * outer parts add up to a whole raised brow.
  */
 function raised(height, share) {
   return ({ part, points, sum, marks }) => {
@@ -75,10 +75,10 @@ export const SHAPES = {
   jawLeft: jawSideways(1),
   jawRight: jawSideways(-1),
 
-  /** Teeth and tongue stay where they are when only the lips move. */
+  /** Teeth and tongue do not move when only the lips move. */
   lipsOnly: (context) => (context.part.inMouth ? new Float64Array(context.sum.length) : context.sum),
 
-  /** Undoes at the lips what an open jaw does, so that jawOpen + mouthClose is a long face with the lips together. */
+  /** Undoes the effect of an open jaw on the lips, so that jawOpen + mouthClose is a long face with the lips together. */
   mouthClose(context) {
     if (context.part.inMouth) return new Float64Array(context.sum.length);
     const { marks } = context;

@@ -1,9 +1,9 @@
 // The 52 face units of ARKit, each composed of the source's shape targets and of turned eyes.
 //
-// `targets`: weights of shape targets; `unit/…` stands for the expression unit of that name, mixed by the person's origins.
+// `targets`: weights of shape targets; `unit/…` is the expression unit of that name, mixed by the person's origins.
 // `side`: only that half of the face takes part, with a soft seam in the middle, so that left + right is the whole.
-// `turn`: joints turned by degrees about an axis of model space (x to the body's left, y up, z forward).
-// `shape`: a function of face/shapes.js, for what no target holds.
+// `turn`: joints rotated by degrees about an axis of model space (x to the body's left, y up, z forward).
+// `shape`: a function of face/shapes.js, if there is no suitable target.
 
 /**
  * @typedef {{ targets?: Record<string, number>, side?: 'left'|'right', turn?: Array<{ joint: string, axis: number[], degrees: number }>, shape?: string
@@ -13,7 +13,7 @@
 const X = [1, 0, 0];
 const Y = [0, 1, 0];
 
-/** Unit pairs that differ by side only: `l` is the source's letter, `half` restricts a target that holds both sides. */
+/** Unit pairs that differ by side only: `l` is the source's letter, `half` restricts a target that contains both sides. */
 function pairs(side) {
   const l = side === 'Left' ? 'l' : 'r';
   const s = side.toLowerCase();

@@ -1,9 +1,9 @@
-// From a part (points and texture coordinates apart) to what a GPU draws: one vertex for each pair of the two that occurs, in an
-// order that is quick to draw and packs well.
+// Converts a part (with separate points and texture coordinates) to GPU vertices: one for each pair of the two that occurs, in an order that is fast to draw
+// and compresses well.
 import { MeshoptEncoder } from 'meshoptimizer';
 import { normalsOf } from '../shape/normals.js';
 
-/** Morph normals are kept where they turn by more than this (length of the difference of unit vectors). */
+/** Morph normals are stored if they change by more than this (length of the difference of unit vectors). */
 const LEAST_TURN = 0.006;
 
 /**
@@ -51,12 +51,12 @@ export function spread(values, numbers, width) {
   return out;
 }
 
-/** Normals at rest by point; those of a part's border take the surface that was cut away into account where `around` gives it. */
+/** Returns normals at rest by point; at a part's border they account for the surface that was cut away, if `around` contains it. */
 export function restNormals(part) {
   return normalsOf(part.points, part.corners);
 }
 
-/** @returns {Float64Array} by how much the normals turn when `moves` is added to the points */
+/** @returns {Float64Array} the change of the normals when `moves` is added to the points */
 export function normalMoves(part, rest, moves) {
   const moved = part.points.map((value, i) => value + moves[i]);
   const out = normalsOf(moved, part.corners);

@@ -1,4 +1,4 @@
-// Writes a gathered person as GLB: one skin, one mesh a part, face units as morph targets.
+// Writes a gathered person as GLB: one skin, one mesh per part, face units as morph targets.
 import { Document, NodeIO } from '@gltf-transform/core';
 import { EXTMeshoptCompression, EXTTextureWebP, KHRMeshQuantization, KHRTextureTransform } from '@gltf-transform/extensions';
 import { MeshoptEncoder } from 'meshoptimizer';
@@ -56,7 +56,7 @@ export async function writeGlb(character, { small, extras, materials }) {
   return io.writeBinary(document);
 }
 
-/** Joints stand in model space's directions at rest: every rotation is the identity, a translation is the offset from the parent. */
+/** Joints are aligned with model space at rest: every rotation is the identity, a translation is the offset from the parent. */
 function writeSkin(document, store, joints, { centre, half }) {
   const nodes = joints.map((joint) => {
     const from = joint.parent < 0 ? [0, 0, 0] : joints[joint.parent].head;

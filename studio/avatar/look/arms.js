@@ -1,11 +1,11 @@
-// Puts the character's hands where a picture wants them. Every joint's rest rotation is the identity, so a turn of model space is
-// what a joint is given once its parent's turn is taken off.
+// Places the character's hands for a picture. Every joint's rest rotation is the identity, so a joint's rotation is that in model space with its parent's
+// rotation removed.
 import * as THREE from 'three';
 
 const vector = (values) => new THREE.Vector3(...values);
 const radians = (degrees) => (degrees * Math.PI) / 180;
 
-/** The turn that takes one pair of directions to another. */
+/** Returns the rotation that takes one pair of directions to another. */
 function turnOf(fromMain, fromSide, toMain, toSide) {
   const frame = (main, side) => {
     const x = main.clone().normalize();

@@ -27,7 +27,7 @@ if (!glb || !out) {
   process.exit(2);
 }
 
-/** Serves the page, the modules it imports and the GLB, on loopback. */
+/** Serves the page, its modules and the GLB, on loopback. */
 const server = http.createServer((request, response) => {
   const name = decodeURIComponent(new URL(request.url, 'http://localhost').pathname);
   let file = path.join(folder, name.replace(/^\/modules\//, '/node_modules/'));

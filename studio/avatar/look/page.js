@@ -1,4 +1,4 @@
-// The page that look.js drives: shows one picture of the list after the other.
+// The page driven by look.js: shows one picture of the list after the other.
 import * as THREE from 'three';
 import { GLTFLoader } from 'three/addons/loaders/GLTFLoader.js';
 import { RoomEnvironment } from 'three/addons/environments/RoomEnvironment.js';
@@ -50,7 +50,7 @@ window.show = async (url) => {
   scene.add(gltf.scene);
 };
 
-/** Where the camera stands for a view: [looks at, from which direction, height of the picture in metres]. */
+/** Returns the camera of a view: [target, direction, height of the picture in metres]. */
 function viewOf(name) {
   const [, eyeHeight, eyeDepth] = extras.eyes;
   const bust = new THREE.Vector3(0, eyeHeight - 0.22, 0.05);

@@ -1,12 +1,12 @@
-// The list of pictures: poses of the arms and hands, and faces. Places are metres from the middle between the shoulders
-// (x to the signer's left, y up, z forward) and are mirrored for the other hand.
+// The list of pictures: poses of the arms and hands, and faces. Positions are in metres from the middle between the shoulders (x to the signer's left, y up, z
+// forward) and are mirrored for the other hand.
 
 const straight = [0, 0, 0];
 const bent = [88, 104, 66];
 const open = { thumb: [0, 5, 0], index: [4, 2, 0], middle: [4, 2, 0], ring: [4, 2, 0], little: [4, 2, 0] };
 const fist = { thumb: [-10, 60, 30, -45], index: bent, middle: bent, ring: bent, little: bent };
 
-/** Flexion in degrees of each finger's three joints from the straight finger (the thumb's first: from rest), then spread. */
+/** Flexion in degrees of each finger's three joints from the straight finger (for the thumb's first joint: from rest), then spread. */
 export const HANDS = {
   fist,
   flat: { ...open, thumb: [10, 10, 5, -20] },

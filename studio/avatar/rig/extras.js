@@ -1,4 +1,4 @@
-// What the GLB says of itself in asset.extras.signweave, for programs that move the character. README.md tells what each part means.
+// The metadata of the GLB in asset.extras.signweave, for programs that move the character. README.md explains each part.
 import { ARM_LIMITS, describeHand } from './hands.js';
 import { UNITS } from '../face/units.js';
 
@@ -38,7 +38,7 @@ function highest(points) {
   return high;
 }
 
-/** Numbers to a micrometre or a millionth, so that the text is short and the same everywhere. */
+/** Rounds numbers to a micrometre or a millionth, so that the text is short and identical on all machines. */
 function rounded(value) {
   if (typeof value === 'number') return Math.round(value * 1e6) / 1e6 + 0;
   if (Array.isArray(value)) return value.map(rounded);

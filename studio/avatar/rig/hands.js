@@ -1,10 +1,10 @@
-// What a retargeter must know of the hands at rest: palm normals, finger chains, axes of flexion and spread, limits.
+// The data about the hands at rest that a retargeter needs: palm normals, finger chains, axes of flexion and spread, limits.
 import { add, cross, dot, length, scale, sub, unit } from '../shape/normals.js';
 
 /**
- * Anatomical limits in degrees by finger and joint, knuckle first: flexion (negative: bent back) measured from the straight
- * finger, and spread at the first joint (positive: towards the thumb). For the thumb the first joint is the saddle joint at the
- * wrist, whose flexion is measured from the rest pose. The upper ends stop short of where the skin would pass through itself.
+ * Anatomical limits in degrees by finger and joint, knuckle first: flexion (negative: bent back) measured from the straight finger, and spread at the first
+ * joint (positive: towards the thumb). For the thumb the first joint is the saddle joint at the wrist, whose flexion is measured from the rest pose. The upper
+ * limits stop short of self-intersection of the skin.
  */
 export const FINGER_LIMITS = {
   thumb: {
@@ -48,7 +48,7 @@ export const FINGER_LIMITS = {
     spread: [-28, 18],
   },
 };
-/** Limits in degrees of the other joints that hands hang on, from the rest pose or, for the elbow, from the straight arm. */
+/** Limits in degrees of the other joints of the arm, from the rest pose or, for the elbow, from the straight arm. */
 export const ARM_LIMITS = {
   elbow: { flexion: [0, 150] },
   forearm: { twist: [-90, 90] },
@@ -91,7 +91,7 @@ export function describeHand(joints, suffix) {
 function describeFinger(name, number, chain, { suffix, palmNormal, wrist, towardsThumb }) {
   const bones = chain.map(({ head, tail }, k) => unit(sub(chain[k + 1]?.head ?? tail, head)));
   const thumb = name === 'thumb';
-  // The finger bends in the plane of its three bones; where it is too straight to tell, in that of its knuckle and the palm.
+  // A finger bends in the plane of its three bones or, if it is too straight to determine this, in that of its knuckle and the palm.
   const inPalm = unit(cross(bones[0], palmNormal));
   const bend = add(cross(bones[0], bones[1]), cross(bones[1], bones[2]));
   const measured = thumb ? thumbAxis(chain, wrist) : unit(add(scale(inPalm, 0.35), bend));
@@ -105,14 +105,14 @@ function describeFinger(name, number, chain, { suffix, palmNormal, wrist, toward
     tip: chain[2].tail,
     lengths: chain.map(({ head, tail }, k) => length(sub(chain[k + 1]?.head ?? tail, head))),
     flexionAxis: axis,
-    // Turning about this axis by a positive angle takes the finger towards the thumb's side.
+    // A positive rotation about this axis takes the finger towards the thumb's side.
     spreadAxis: unit(cross(bones[0], dot(axis, towardsThumb) > 0 ? axis : scale(axis, -1))),
     restFlexion: restFlexion.map(degrees),
     limits: FINGER_LIMITS[name],
   };
 }
 
-/** The thumb bends across the palm, in the plane of its own bones, turned a little so that its pad meets the fingers. */
+/** The thumb bends across the palm, in the plane of its own bones, rotated slightly so that its pad meets the fingers. */
 function thumbAxis(chain, wrist) {
   const [a, b, c] = chain;
   const bend = cross(sub(b.head, a.head), sub(c.tail, b.head));

@@ -1,15 +1,15 @@
-// The character's joints, from the source's bones. Bones of the toes, the breast and the face's muscles are folded into the joint
-// above them: toes are in shoes, and the face moves by morph targets.
+// The character's joints, from the source's bones. Bones of the toes, the breast and the face's muscles are merged into the joint above them: toes are in
+// shoes, and the face moves by morph targets.
 import { at, add, scale, unit, sub, cross, length } from '../shape/normals.js';
 
 const FOLDED = /^(toe|breast|special|oris|levator|oculi|risorius|temporalis)/;
 
 /**
  * @typedef {object} Joint
- * @property {string} name as in the source, `-` and `.` written `_`: `finger2_1_L`
+ * @property {string} name as in the source, with `-` and `.` replaced by `_`: `finger2_1_L`
  * @property {number} parent number of a joint before this one, −1 for the root
- * @property {number[]} head where the joint is, metres, model space
- * @property {number[]} tail where its bone ends
+ * @property {number[]} head position of the joint, metres, model space
+ * @property {number[]} tail the end of its bone
  */
 
 /** `wrist.L` → `wrist_L` */
@@ -48,7 +48,7 @@ export function buildSkeleton(rig, points) {
   return { joints, jointOfBone };
 }
 
-/** Weights of the base mesh by joint: per vertex a list of [joint, weight]. */
+/** Returns the weights of the base mesh by joint: per vertex a list of [joint, weight]. */
 export function baseWeights(base, jointOfBone) {
   const count = base.weights.length / 4;
   const out = new Array(count);
@@ -65,7 +65,7 @@ export function baseWeights(base, jointOfBone) {
   return out;
 }
 
-/** Carries weights through a stencil and keeps the four largest, which then sum to one. */
+/** Applies a stencil to weights and keeps the four largest, normalised to a sum of one. */
 export function carryWeights(stencil, weights) {
   const joints = new Uint8Array(stencil.rows * 4);
   const shares = new Float64Array(stencil.rows * 4);
@@ -89,7 +89,7 @@ export function carryWeights(stencil, weights) {
   return { joints, shares };
 }
 
-/** The two axes of a bone at rest: along it, and across it in the plane of head, tail and `third`. */
+/** Returns the two axes of a bone at rest: along it, and perpendicular to it in the plane of head, tail and `third`. */
 export function planeNormal(head, tail, third) {
   const normal = cross(sub(tail, head), sub(third, head));
   if (length(normal) < 1e-12) throw new Error('a rotation plane whose points lie on a line');

@@ -61,7 +61,7 @@ function buildParts({ person, base, skeleton, weights }) {
   const clavicle = skeleton.joints.find((joint) => joint.name === 'clavicle_L').head[1];
   const underTop = ([x, y]) => Math.abs(x) > 0.1 || y < clavicle + 0.01;
   const head = portion(body, 'head', (f) => headPieces.has(piece[f]) && !underTop(at(bodyPoints, body.corners[f * 4])));
-  const bare = new Set(); // pieces with fingers or ankles; what else is left of the skin lies in the armpits, under cloth
+  const bare = new Set(); // pieces with fingers or ankles; the remaining skin is in the armpits, under cloth
   const ends = skeleton.joints.filter(({ name }) => /^(finger3_3|foot)/.test(name)).map((joint) => joint.head);
   for (let f = 0; f < piece.length; ++f) {
     const p = at(bodyPoints, body.corners[f * 4]);
@@ -88,7 +88,7 @@ function buildParts({ person, base, skeleton, weights }) {
   ];
 }
 
-/** A cuff goes with the forearm and does not bend with the wrist. */
+/** A cuff follows the forearm and does not bend with the wrist. */
 function sleeveWeights(weights, joints) {
   const forearm = (joint) => {
     const [, side] = /^(?:wrist|finger|metacarpal).*_([LR])$/.exec(joints[joint].name) ?? [];
@@ -98,7 +98,7 @@ function sleeveWeights(weights, joints) {
   return weights.map((list) => list.map(([joint, share]) => [moved[joint], share]));
 }
 
-/** Vertices that are covered and so many rings of faces away from bare skin: what nobody can see through a collar or cuff. */
+/** Returns the vertices that are covered and at least `rings` rings of faces away from bare skin: invisible through a collar or cuff. */
 function farInside(covered, corners, rings) {
   let inside = covered;
   for (let ring = 0; ring < rings; ++ring) {
@@ -112,14 +112,14 @@ function farInside(covered, corners, rings) {
   return inside;
 }
 
-/** Skin under cloth is drawn in a little, so that it never shows through. */
+/** Moves skin under cloth inwards slightly, so that it never shows through. */
 function drawIn(body, points, covered) {
   const normals = normalsOf(points, body.corners);
   const share = apply(body.stencil, covered, 1);
   for (let i = 0; i < points.length; ++i) body.offsets[i] -= normals[i] * DRAWN_IN * smoothstep(0.2, 1, share[Math.floor(i / 3)]);
 }
 
-/** The source's teeth stand so far forward and wide that they show between closed lips, and at their corners. */
+/** The source's teeth are so far forward and wide that they show between closed lips, and at their corners. */
 function setBack(part, base, { joints }, weights) {
   const points = pointsOf(part, base.points);
   const lower = (vertex) => weights[vertex].some(([joint, share]) => joints[joint].name === 'jaw' && share > 0.5);
@@ -137,10 +137,10 @@ function moved(part, way) {
   return part;
 }
 
-/** The eyeballs without their corneas: glTF has no clear shell that every viewer draws well, so the ball itself is glossy. */
+/** The eyeballs without their corneas: glTF has no clear coat that every viewer draws well, so the ball itself is glossy. */
 function eyeballs(part) {
   const piece = pieces(part.corners, part.stencil.rows);
-  const clear = new Set(); // the cornea's coordinates lie in the image's clear corner
+  const clear = new Set(); // the cornea's texture coordinates are in the image's transparent corner
   for (let f = 0; f < piece.length; ++f) {
     const uv = part.uvCorners[f * 4] * 2;
     if (part.uvs[uv] > 0.85 && part.uvs[uv + 1] < 0.15) clear.add(piece[f]);
@@ -148,7 +148,7 @@ function eyeballs(part) {
   return portion(part, part.name, (f) => !clear.has(piece[f]));
 }
 
-/** The suit as two parts, fitted and then subdivided. */
+/** Returns the suit as two parts, fitted and then subdivided. */
 function garments(suit, base, { joints }, weights) {
   const part = proxyPart('suit', suit);
   const points = pointsOf(part, base.points);

@@ -1,12 +1,11 @@
-// Clothes: kept clear of the skin, and drawn closer to the arms than the source has them.
+// Clothes: kept clear of the skin, and closer to the arms than in the source.
 import { add, at, dot, scale, sub, smoothstep } from './normals.js';
 
 /** Least distance from skin to cloth, metres. */
 export const CLEARANCE = 0.004;
 
 /**
- * Moves a garment's points along the skin's normals: to at least CLEARANCE outside, and on the sleeves only `looseness` of what
- * they stand off beyond that.
+ * Moves a garment's points along the skin's normals: to at least CLEARANCE outside, and on the sleeves to only `looseness` times their distance beyond that.
  * @param {import('./parts.js').Part} part its offsets are changed
  * @param {Float64Array} points of the part
  * @param {{ points: Float64Array, normals: Float64Array, numbers: number[] }} skin
@@ -28,7 +27,7 @@ export function fitGarment(part, points, skin, sleeve, looseness = 0.35) {
   let moves = wanted;
   for (let pass = 0; pass < 3; ++pass) moves = averaged(moves, part.corners, count);
   for (let i = 0; i < count; ++i) {
-    // Smoothing may have put a point too close again.
+    // Smoothing may have moved a point too close again.
     const n = at(skin.normals, nearest[i]);
     const moved = add(at(points, i), at(moves, i));
     const stand = dot(sub(moved, at(skin.points, nearest[i])), n);
@@ -72,7 +71,7 @@ function averaged(moves, corners, count) {
   return sum;
 }
 
-/** 1 from the armpit outwards to the wrist and at the neck, 0 on the trunk: by how much cloth lies close there. */
+/** Returns how closely cloth fits: 1 from the armpit outwards to the wrist and at the neck, 0 on the trunk. */
 export function closeShare(weights, joints) {
   const arms = new Set(joints.flatMap((joint, j) => (/^(upperarm|lowerarm|wrist|neck)/.test(joint.name) ? [j] : [])));
   return (skinPoint) => {

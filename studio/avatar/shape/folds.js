@@ -1,8 +1,8 @@
-// How cloth falls: the trunk of the top hangs a little free of the waist, and folds run over sleeves and trunk. The source's top is
-// as smooth as a diving suit.
+// The drape of cloth: the trunk of the top hangs slightly away from the waist, and folds run over sleeves and trunk. The source's top is as smooth as a diving
+// suit.
 import { add, at, dot, length, normalsOf, scale, smoothstep, sub, unit } from './normals.js';
 
-/** Smooth noise of three numbers, −1…1, period-free over a body's size; the same everywhere. */
+/** Returns smooth noise from three numbers, −1…1, without period over a body's size; identical on all machines. */
 export function noise(x, y, z) {
   const cell = [Math.floor(x), Math.floor(y), Math.floor(z)];
   const f = [x - cell[0], y - cell[1], z - cell[2]].map((t) => t * t * t * (t * (t * 6 - 15) + 10));
@@ -50,7 +50,7 @@ export function drape(part, points, joints) {
   }
 }
 
-/** Half the width of the trunk at a height, sleeves left out, metres. */
+/** Returns half the width of the trunk at a height, without sleeves, metres. */
 function halfWidth(points, height) {
   let most = 0;
   for (let i = 0; i < points.length; i += 3) {
@@ -59,7 +59,7 @@ function halfWidth(points, height) {
   return most;
 }
 
-/** Where a point lies along the arm: 0 at the shoulder, 1 at the elbow, 2 at the wrist; and on which side of it. */
+/** Returns the position of a point along the arm: 0 at the shoulder, 1 at the elbow, 2 at the wrist; and its side of the arm. */
 function alongArm(p, [shoulder, elbow, wrist]) {
   const share = (a, b) => dot(sub(p, a), sub(b, a)) / length(sub(b, a)) ** 2;
   const upper = share(shoulder, elbow);
@@ -71,15 +71,15 @@ function alongArm(p, [shoulder, elbow, wrist]) {
   return { place, inside: dot(unit(sub(p, foot)), inner) };
 }
 
-/** Ends the sleeves square at the wrist: what reaches further is drawn back along the forearm, into a hem. */
+/** Ends the sleeves square at the wrist: points beyond are moved back along the forearm, into a hem. */
 export function trimSleeves(part, points, joints) {
-  const end = 0.93; // of the way from elbow to wrist
+  const end = 0.93; // fraction of the distance from elbow to wrist
   const head = (name) => joints.find((joint) => joint.name === name).head;
   for (let i = 0; i < points.length / 3; ++i) {
     const p = at(points, i);
     const side = p[0] < 0 ? 'R' : 'L';
     const [elbow, wrist] = [head(`lowerarm01_${side}`), head(`wrist_${side}`)];
-    // The forearm's own line near the wrist is that of lowerarm02.
+    // Near the wrist, the forearm's direction is that of lowerarm02.
     const middle = head(`lowerarm02_${side}`);
     const along = unit(sub(wrist, middle));
     const beyond = dot(sub(p, wrist), along) + (1 - end) * length(sub(wrist, elbow));
@@ -91,7 +91,7 @@ export function trimSleeves(part, points, joints) {
   }
 }
 
-/** Folds gather where the arm bends and lie across it, slanting; few elsewhere. None in the last centimetres, where the cuff fits. */
+/** Folds gather where the arm bends and run across it at a slant; few elsewhere. None in the last centimetres, where the cuff fits. */
 function sleeveFold({ place, inside }, [x, y, z], side) {
   const seed = side === 'L' ? 3.1 : 17.7;
   const elbow = Math.exp(-(((place - 1) / 0.34) ** 2));
@@ -103,7 +103,7 @@ function sleeveFold({ place, inside }, [x, y, z], side) {
 /** The trunk hangs from chest and shoulder blades; folds run down and inwards from the armpits, and gather above the hem. */
 function trunkFold([x, y, z], { waist, chest, hollow }) {
   const hang = Math.exp(-(((y - waist) / 0.11) ** 2)) * (0.006 + 0.7 * hollow);
-  const aside = Math.hypot(x, 0.04); // folds run to both sides alike, without a crease in the middle
+  const aside = Math.hypot(x, 0.04); // folds are symmetric, without a crease in the middle
   const slant = noise((y + aside * 1.3) * 13 + 5.3, (x - y * 0.5) * 4, z * 5);
   const low = 1 - smoothstep(chest - 0.12, chest + 0.06, y);
   const pit = smoothstep(0.07, 0.13, Math.abs(x)) * smoothstep(chest - 0.12, chest, y) * (1 - smoothstep(chest + 0.1, chest + 0.16, y));

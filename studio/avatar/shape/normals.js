@@ -1,4 +1,4 @@
-// Smooth normals of a mesh of quads, and small vector help.
+// Smooth normals of a mesh of quads, and small vector functions.
 
 /** @param {Float64Array} points @param {Int32Array} corners @returns {Float64Array} unit, weighted by area */
 export function normalsOf(points, corners) {
@@ -39,7 +39,7 @@ export function rotated(v, axis, angle) {
   const c = Math.cos(angle);
   return add(add(scale(v, c), scale(cross(axis, v), Math.sin(angle))), scale(axis, dot(axis, v) * (1 - c)));
 }
-/** 0 below `low`, 1 above `high`, smooth between. */
+/** 0 below `low`, 1 above `high`, smooth in between. */
 export function smoothstep(low, high, x) {
   const t = Math.min(1, Math.max(0, (x - low) / (high - low)));
   return t * t * (3 - 2 * t);

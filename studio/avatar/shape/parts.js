@@ -21,7 +21,7 @@ export function pointsOf(part, base) {
   return out;
 }
 
-/** The skin: the base mesh's own faces, subdivided once. `keep` chooses faces by their four base points. */
+/** Returns the skin: the base mesh's own faces, subdivided once. `keep` selects faces by their four base points. */
 export function bodyPart(base, keep) {
   const body = base.groupNames.indexOf('body');
   const { corners, uvCorners, uvs, groups } = base.quads;
@@ -45,7 +45,7 @@ export function bodyPart(base, keep) {
   });
 }
 
-/** A proxy, with its points where the source puts them. */
+/** Returns a proxy with its points at the source's positions. */
 export function proxyPart(name, proxy) {
   const rows = proxy.refs.length / 3;
   const lists = [];
@@ -70,14 +70,14 @@ export function refined(part) {
   };
 }
 
-/** Faces of a part that `choose` takes, by number, with only the points they use. */
+/** Returns the faces of a part that `choose` accepts, by number, with only the points they use. */
 export function portion(part, name, choose) {
   const chosen = [];
   for (let f = 0; f < part.corners.length / 4; ++f) if (choose(f)) chosen.push(f);
   return compact({ ...part, name, corners: faces(part.corners, chosen), uvCorners: faces(part.uvCorners, chosen) });
 }
 
-/** Number of the connected piece that each face belongs to, in the order of their first faces. */
+/** Returns the number of each face's connected piece, in the order of their first faces. */
 export function pieces(corners, pointCount) {
   const parent = Int32Array.from({ length: pointCount }, (_, i) => i);
   const find = (i) => {

@@ -1,4 +1,4 @@
-// The two signers: which targets shape them, and what they wear.
+// The two signers: their shape targets and their clothes.
 
 /**
  * @typedef {object} Person
@@ -8,7 +8,7 @@
  * @property {Record<string, number[]>} tint linear-light factors of colours, by part
  */
 
-/** The body's targets are products of sex, age, muscle and weight; here one person each, so the products are written out. */
+/** The body's targets are products of sex, age, muscle and weight; with one value of each per person, the products are written out. */
 function body(sex, origins, muscle, weight) {
   const shape = {};
   for (const [origin, share] of Object.entries(origins)) shape[`macrodetails/${origin}-${sex}-young`] = share;
@@ -24,7 +24,7 @@ function body(sex, origins, muscle, weight) {
 /** Shares of the source's three origins in shape and in face units. */
 const ORIGINS = { caucasian: 0.7, asian: 0.15, african: 0.15 };
 
-/** The source's brows fall towards the nose, which looks stern; here they are level. */
+/** The source's brows slope towards the nose, which looks stern; here they are level. */
 function atEase(share) {
   return {
     'expression/units/caucasian/eyebrows-left-inner-up': share,
@@ -32,7 +32,7 @@ function atEase(share) {
   };
 }
 
-/** The source's lips stand open by a line through which the teeth shine. */
+/** The source's lips have a gap through which the teeth show. */
 const LIPS_TOGETHER = { 'mouth/mouth-lowerlip-middle-up': 0.4, 'mouth/mouth-lowerlip-ext-up': 0.25 };
 
 /** @type {Record<string, Person>} */

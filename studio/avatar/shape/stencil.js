@@ -1,5 +1,5 @@
-// A stencil matrix: every output point is a weighted sum of input points. Fitting to the base mesh and subdividing are both of
-// this kind, so one product of them carries shapes, morph targets and skin weights alike.
+// A stencil matrix: every output point is a weighted sum of input points. Fitting to the base mesh and subdividing both have this form, so the product of their
+// stencils applies to shapes, morph targets and skin weights alike.
 
 /** @typedef {{ rows: number, start: Int32Array, columns: Int32Array, values: Float64Array }} Stencil */
 

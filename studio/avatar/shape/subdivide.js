@@ -1,10 +1,10 @@
-// One step of Catmull and Clark's subdivision. It is linear, so it is given as a stencil; texture coordinates are halved linearly.
+// One step of Catmull-Clark subdivision. It is linear, so it is returned as a stencil; texture coordinates are halved linearly.
 import { stencilOf } from './stencil.js';
 
 /**
  * @param {Int32Array} corners four point numbers a face
  * @param {number} count number of points
- * @param {boolean} smooth false: new points in the middle of edges and faces, old ones stay
+ * @param {boolean} smooth false: new points in the middle of edges and faces, old ones unchanged
  */
 export function subdivide(corners, count, smooth = true) {
   const faces = corners.length / 4;
@@ -49,7 +49,7 @@ export function subdivide(corners, count, smooth = true) {
   return { stencil: stencilOf(lists), corners: out };
 }
 
-/** The old points: inside by the usual rule, on a border by the curve through the border, corners and strays stay. */
+/** The old points: inside by the usual rule, on a border by the curve through the border; corners and isolated points are unchanged. */
 function smoothOld(corners, count, edgeList, lists) {
   const facesAt = Array.from({ length: count }, () => []);
   const edgesAt = Array.from({ length: count }, () => []);

@@ -1,5 +1,5 @@
-// Everything that is taken from the npm package, in one table. Each of these is also in the core set that upstream's owners
-// released as CC0 (see NOTICE at the root of the tree). Add nothing here that is not: no items by users, no scripts.
+// Everything taken from the npm package, in one table. Each of these is also in the core set that upstream's owners released as CC0 (see NOTICE at the root of
+// the tree). Add nothing here that is not: no items by users, no scripts.
 
 /** @typedef {{ path: string, use: string }} Asset */
 

@@ -1,4 +1,4 @@
-// Reads the pinned npm package. Only this file knows where it lies and how its files are laid out.
+// Reads the pinned npm package. Only this file knows its location and the layout of its files.
 import fs from 'node:fs';
 import path from 'node:path';
 import { createRequire } from 'node:module';
@@ -50,7 +50,7 @@ function quadsOf(json) {
   return { corners, uvCorners, uvs: Float32Array.from(json.uvs[0]), groups };
 }
 
-/** The base mesh, in metres: x to the body's left, y up, z forward. Weights name bones as the source does (`wrist.L`). */
+/** Returns the base mesh, in metres: x to the body's left, y up, z forward. Weights name bones as the source does (`wrist.L`). */
 export function readBase() {
   const json = readJson('base');
   const points = Float64Array.from(json.vertices, (value) => value * METRES_PER_UNIT);
@@ -64,14 +64,14 @@ export function readBase() {
   };
 }
 
-/** The source's skeleton: bones by name with their parent, and the base vertices whose mean is a joint. */
+/** Returns the source's skeleton: bones by name with their parent, and the base vertices whose mean is a joint. */
 export function readRig() {
   const json = readJson('rig');
   return { bones: json.bones, joints: json.joints, planes: json.planes };
 }
 
 /**
- * A mesh that follows the base: each point is Σ weights · base[refs] + offset.
+ * Reads a mesh that follows the base: each point is Σ weights · base[refs] + offset.
  * @param {string} name a key of ASSETS
  */
 export function readProxy(name) {
@@ -85,7 +85,7 @@ export function readProxy(name) {
   };
 }
 
-/** Opens the shape targets; each is read from disk when it is asked for, as the file has 145 MB. */
+/** Opens the shape targets; each is read from disk on demand, because the file has 145 MB. */
 export function openTargets() {
   const names = Object.keys(readJson('targetNames').targets).sort();
   const rows = new Map(names.map((name, row) => [name.replace(/^data\/targets\//, '').replace(/\.target$/, ''), row]));

@@ -1,9 +1,9 @@
-// Paints values that points have into an image laid out by texture coordinates.
+// Paints values of points into an image laid out by texture coordinates.
 
 /**
  * @param {import('../shape/parts.js').Part[]} parts that share one layout
  * @param {(part: object) => Float64Array} valuesOf `width` numbers a point
- * @returns {Float32Array} `width` numbers a pixel, the surroundings of each island filled from it
+ * @returns {Float32Array} `width` numbers a pixel; the surroundings of each island are filled from it
  */
 export function bake(parts, valuesOf, width, size) {
   const image = new Float32Array(size * size * width);
@@ -46,7 +46,7 @@ function paint(image, filled, size, [a, b, c], points, values, width) {
   }
 }
 
-/** Fills empty pixels beside filled ones, so that no seam shows when the image is made smaller. */
+/** Fills empty pixels next to filled ones, so that no seam shows when the image is scaled down. */
 function grow(image, filled, size, width) {
   const before = filled.slice();
   for (let y = 0; y < size; ++y) {
@@ -62,7 +62,7 @@ function grow(image, filled, size, width) {
   }
 }
 
-/** How hollow (negative) or raised the surface is at each point: its distance from the mean of its neighbours, per metre of edge. */
+/** Returns how hollow (negative) or raised the surface is at each point: its distance from the mean of its neighbours, per metre of edge. */
 export function hollowness(part, normals, passes) {
   const { points, corners } = part;
   const count = points.length / 3;

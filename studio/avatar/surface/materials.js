@@ -1,11 +1,11 @@
-// What each part looks like.
+// The appearance of each part.
 import sharp from 'sharp';
 import { EXTTextureWebP, KHRTextureTransform } from '@gltf-transform/extensions';
 import { assetPath } from '../source/package.js';
 import { knitRelief, normalMap, skinRelief } from './noise.js';
 import { eyeImage, skinImages, teethImage } from './skin.js';
 
-/** @returns the image as a texture: WebP in the small file, JPEG or PNG in the plain one, which every reader knows */
+/** @returns the image as a texture: WebP in the small file, JPEG or PNG in the plain one, which every reader supports */
 export async function addTexture(document, small, name, image, { alpha = false, quality = 85 } = {}) {
   if (small) document.createExtension(EXTTextureWebP).setRequired(true);
   const bytes = small

@@ -1,6 +1,6 @@
-// Fine relief that repeats without a seam: pores of the skin and the weave of cloth, as normal maps. Always the same numbers.
+// Fine relief that repeats without a seam: pores of the skin and the weave of cloth, as normal maps. Deterministic.
 
-/** A small generator of numbers in 0…1 from a seed. */
+/** Returns a small generator of numbers in 0…1 from a seed. */
 export function numbersFrom(seed) {
   let state = seed >>> 0;
   return () => {
@@ -11,7 +11,7 @@ export function numbersFrom(seed) {
   };
 }
 
-/** @returns {Float64Array} heights 0…1: cells with furrows between them and a pore in some, as skin has */
+/** @returns {Float64Array} heights 0…1: cells with furrows between them and pores in some, like skin */
 export function skinRelief(size, cells, seed) {
   const next = numbersFrom(seed);
   const centres = [];

@@ -1,11 +1,11 @@
-// The skin's images: the source's colour, with hollows darkened and blood showing where it does, and how rough it is where.
+// The skin's images: the source's colour with darkened hollows and visible blood, and the roughness.
 import sharp from 'sharp';
 import { assetPath } from '../source/package.js';
 import { normalsOf, smoothstep } from '../shape/normals.js';
 import { bake, hollowness } from './bake.js';
 
 const SIZE = 1024;
-/** How much light of each colour a hollow and blood under the skin take away. */
+/** How much light of each colour a hollow, and blood under the skin, absorb. */
 const HOLLOW = [0.42, 0.58, 0.62];
 const BLOOD = [0.02, 0.3, 0.26];
 const bell = (x, width) => Math.exp(-((x / width) ** 2));
@@ -36,7 +36,7 @@ export async function skinImages(character) {
   return { colour: sharp(data, raw), roughness: sharp(roughness, raw).resize(SIZE / 2, SIZE / 2) };
 }
 
-/** Per point: how hollow 0…1, how much blood shows 0…1, how glossy 0…1. */
+/** Returns per point: hollowness 0…1, visible blood 0…1, gloss 0…1. */
 function pointValues(part, { skeleton, name }) {
   const { points } = part;
   const normals = normalsOf(points, part.corners);
@@ -73,7 +73,7 @@ function pointValues(part, { skeleton, name }) {
   return out;
 }
 
-/** Eyes: the white a little shaded, as lids shade it; `iris` are factors of the iris's own colour, whose source is garish. */
+/** Eyes: the white slightly shaded, as by lids; `iris` are factors of the iris's own colour, which is garish in the source. */
 export async function eyeImage(name, iris) {
   const { data, info } = await sharp(assetPath(name)).removeAlpha().raw().toBuffer({ resolveWithObject: true });
   for (let i = 0; i < data.length; i += 3) {
@@ -88,7 +88,7 @@ export async function eyeImage(name, iris) {
   return sharp(data, { raw: info });
 }
 
-/** Teeth as they look in a mouth: the source's are grey with black edges. Gums and tongue keep their colour, a little paler. */
+/** Teeth with a natural colour: the source's are grey with black edges. Gums and tongue keep their colour, slightly paler. */
 export async function teethImage() {
   const { data, info } = await sharp(assetPath('teethImage')).removeAlpha().raw().toBuffer({ resolveWithObject: true });
   for (let i = 0; i < data.length; i += 3) {

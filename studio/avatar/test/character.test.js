@@ -1,4 +1,4 @@
-// Builds both characters once and asks of the files what the studio and the library rely on.
+// Builds both characters once and checks the properties of the files on which the studio and the library rely.
 import assert from 'node:assert/strict';
 import { before, describe, test } from 'node:test';
 import validator from 'gltf-validator';
@@ -26,20 +26,20 @@ for (const name of ['woman', 'man']) {
     const parts = (part) => known.get(part) ?? known.set(part, partOf(document, part)).get(part);
     const joints = () => document.getRoot().listSkins()[0].listJoints();
 
-    test('a second build gives the same bytes', async () => {
+    test('a second build produces identical bytes', async () => {
       const again = await buildCharacter(name, [{ small: true }, { small: false }]);
       assert.ok(Buffer.from(small).equals(Buffer.from(again[0])), 'the small file differs');
       assert.ok(Buffer.from(plain).equals(Buffer.from(again[1])), 'the plain file differs');
     });
 
-    test('the validator finds no error', async () => {
+    test('the validator finds no errors', async () => {
       for (const bytes of [small, plain]) {
         const { issues } = await validator.validateBytes(bytes, { maxIssues: 10 });
         assert.equal(issues.numErrors, 0, JSON.stringify(issues.messages.filter((issue) => issue.severity === 0)));
       }
     });
 
-    test('the small file is small, and the plain one asks for no extension', () => {
+    test('the small file is small, and the plain one requires no extension', () => {
       assert.ok(small.length < 4 * MEGABYTE, `${small.length} bytes`);
       const json = JSON.parse(Buffer.from(plain.buffer, plain.byteOffset + 20, new DataView(plain.buffer, plain.byteOffset).getUint32(12, true)).toString());
       assert.equal(json.extensionsRequired, undefined);
@@ -77,7 +77,7 @@ for (const name of ['woman', 'man']) {
       });
     });
 
-    test('every vertex hangs on at most four joints whose weights sum to one', async () => {
+    test('every vertex has at most four joints whose weights sum to one', async () => {
       for (const each of [document, await readGlb(plain)]) {
         for (const mesh of each.getRoot().listMeshes()) {
           const primitive = mesh.listPrimitives()[0];
@@ -91,7 +91,7 @@ for (const name of ['woman', 'man']) {
       }
     });
 
-    test('the left and the right of the skeleton mirror each other', () => {
+    test('the left and right sides of the skeleton are mirrored', () => {
       const place = new Map(joints().map((joint) => [joint.getName(), joint.getWorldTranslation()]));
       for (const [left, [x, y, z]] of place) {
         if (!left.endsWith('_L')) continue;
@@ -100,7 +100,7 @@ for (const name of ['woman', 'man']) {
       }
     });
 
-    test('every face unit moves what it names, and that way', () => {
+    test('every face unit moves the named region in the expected direction', () => {
       assert.deepEqual(Object.keys(FACE).sort(), Object.keys(UNITS).sort());
       assert.equal(Object.keys(FACE).length, 52);
       assert.deepEqual(extras.faceUnits.missing, []);
@@ -114,7 +114,7 @@ for (const name of ['woman', 'man']) {
       }
     });
 
-    test('a unit of one side leaves the other side alone', () => {
+    test('a one-sided unit does not affect the other side', () => {
       for (const [unit, { side }] of Object.entries(FACE)) {
         if (!side) continue;
         for (const part of extras.faceUnits.morphs[unit]) {
@@ -124,7 +124,7 @@ for (const name of ['woman', 'man']) {
       }
     });
 
-    test('a blink closes the eye and moves nothing else of the face', () => {
+    test('a blink closes the eye and moves nothing else in the face', () => {
       const head = parts('head');
       const [, eyeHeight] = extras.eyes;
       const far = largestMove(head, 'eyeBlinkLeft', ([x, y]) => Math.abs(y - eyeHeight) > 0.035 || x < 0.005);
@@ -132,7 +132,7 @@ for (const name of ['woman', 'man']) {
       assert.ok(largestMove(head, 'eyeBlinkLeft') > 0.008);
     });
 
-    test('left and right units mirror each other', () => {
+    test('left and right units are mirrored', () => {
       for (const unit of Object.keys(FACE).filter((each) => /Left$/.test(each) && FACE[each].side)) {
         for (const part of extras.faceUnits.morphs[unit]) {
           const mesh = parts(part);
@@ -152,7 +152,7 @@ for (const name of ['woman', 'man']) {
       }
     });
 
-    test('what is told of the hands is true of the joints', () => {
+    test('the metadata of the hands matches the joints', () => {
       const place = new Map(joints().map((joint) => [joint.getName(), joint.getWorldTranslation()]));
       for (const [side, suffix, sign] of [
         ['left', 'L', 1],

@@ -1,6 +1,6 @@
-// Tells whether a point of the skin lies outside a garment.
+// Determines whether a point of the skin lies outside a garment.
 
-const CELL = 0.012; // metres; cloth further away than this covers nothing
+const CELL = 0.012; // metres; cloth farther away than this covers nothing
 
 /** @param {{ points: number[][], primitive: import('@gltf-transform/core').Primitive }} part */
 export function clothOf({ points, primitive }) {
@@ -10,7 +10,7 @@ export function clothOf({ points, primitive }) {
   const key = (p, dx = 0, dy = 0, dz = 0) => `${Math.floor(p[0] / CELL) + dx},${Math.floor(p[1] / CELL) + dy},${Math.floor(p[2] / CELL) + dz}`;
   points.forEach((point, i) => cells.set(key(point), [...(cells.get(key(point)) ?? []), i]));
   return {
-    /** How far outside the nearest cloth the point is, metres; −1 where no cloth is near or the point is beyond its edge. */
+    /** Returns how far outside the nearest cloth the point is, metres; −1 if no cloth is near or the point is beyond its edge. */
     outside(point) {
       let best = CELL ** 2;
       let nearest = -1;
@@ -28,7 +28,7 @@ export function clothOf({ points, primitive }) {
   };
 }
 
-/** Vertices at the collar, the cuffs and the hem: on an edge of one triangle only, seams of the image not counted. */
+/** Returns the vertices at the collar, the cuffs and the hem: on an edge of only one triangle, except seams of the image. */
 function borderOf(points, indices) {
   const welded = new Map();
   const number = points.map((point) => {

@@ -1,10 +1,10 @@
-// What each face unit must do, told apart from how it is made. `where` is a place of the face, `way` the direction in which its
-// points must go on the whole: x to the signer's left, y up, z forward. Sided units must leave the other side alone.
+// The required effect of each face unit, independent of its implementation. `where` is a region of the face, `way` the direction in which its points must move
+// on average: x to the signer's left, y up, z forward. One-sided units must not affect the other side.
 
 const LEFT = 1;
 const RIGHT = -1;
 
-/** Places: `p` is relative to the middle between the eyes, `m` to the middle of the mouth, metres; `side` mirrors them. */
+/** Regions: `p` is relative to the middle between the eyes, `m` to the middle of the mouth, metres; `side` mirrors them. */
 const PLACES = {
   upperLid: (p, side) => Math.abs(side * p[0] - 0.03) < 0.008 && p[1] > 0.001 && p[1] < 0.009,
   lowerLid: (p, side) => Math.abs(side * p[0] - 0.03) < 0.008 && p[1] < -0.004 && p[1] > -0.012,
@@ -21,7 +21,7 @@ const PLACES = {
   tongueTip: () => true,
 };
 
-/** `least` is in metres: how far the place must go that way at least, in the mean. */
+/** `least` is in metres: how far the region must move in that direction at least, on average. */
 const row = (part, where, way, least, side = 0) => ({ part, where: PLACES[where], way, least, side });
 const UP = [0, 1, 0];
 const DOWN = [0, -1, 0];

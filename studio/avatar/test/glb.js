@@ -1,4 +1,4 @@
-// Reads a built GLB the way a program would: meshopt taken out, numbers made floats again.
+// Reads a built GLB as a program would: meshopt decompressed, numbers converted to floats.
 import { NodeIO } from '@gltf-transform/core';
 import { EXTMeshoptCompression, EXTTextureWebP, KHRMeshQuantization, KHRTextureTransform } from '@gltf-transform/extensions';
 import { MeshoptDecoder } from 'meshoptimizer';
@@ -12,7 +12,7 @@ export async function readGlb(bytes) {
     .readBinary(bytes);
 }
 
-/** A part's points in metres at rest, and what each face unit adds to them. */
+/** Returns a part's points in metres at rest, and the displacement of each face unit. */
 export function partOf(document, name) {
   const node = document
     .getRoot()
@@ -42,7 +42,7 @@ export function partOf(document, name) {
   return { points, units, primitive };
 }
 
-/** Mean of what a unit adds to the points that `choose` takes, metres. */
+/** Returns a unit's mean displacement of the points that `choose` accepts, metres. */
 export function meanMove({ points, units }, unit, choose) {
   const moves = units.get(unit);
   const chosen = points.flatMap((point, i) => (choose(point) ? [moves[i]] : []));
@@ -50,7 +50,7 @@ export function meanMove({ points, units }, unit, choose) {
   return [0, 1, 2].map((k) => chosen.reduce((sum, move) => sum + move[k], 0) / chosen.length);
 }
 
-/** The largest move of any point that `choose` takes, metres. */
+/** Returns the largest move of any point that `choose` accepts, metres. */
 export function largestMove({ points, units }, unit, choose = () => true) {
   const moves = units.get(unit);
   return points.reduce((most, point, i) => (choose(point) ? Math.max(most, Math.hypot(...moves[i])) : most), 0);

@@ -20,7 +20,7 @@ const kEaf = `<?xml version="1.0"?><ANNOTATION_DOCUMENT>
   <ANNOTATION_VALUE>Stroke</ANNOTATION_VALUE></ALIGNABLE_ANNOTATION></ANNOTATION></TIER>
 </ANNOTATION_DOCUMENT>`
 
-it('reads tiers in the order of a tree, with the times that ELAN shows', () => {
+it('reads tiers in tree order, with the times that ELAN shows', () => {
   const { tiers } = readEaf(kEaf)
   expect(tiers.map(({ name, depth }) => [name, depth])).toEqual([
     ['Gloss', 0],
@@ -35,7 +35,7 @@ it('reads tiers in the order of a tree, with the times that ELAN shows', () => {
   expect(tiers[2].annotations[0]).toEqual({ begin: 100, end: 200, label: 'Stroke' })
 })
 
-it('finds what is at a time, half-open', () => {
+it('finds the annotation at a time, half-open', () => {
   const tier = readEaf(kEaf).tiers[0]
   expect([99, 100, 399.9, 400, 600].map((ms) => indexAt(tier, ms))).toEqual([-1, 0, 0, 1, -1])
   expect([99, 100, 400, 600].map((ms) => annotationNear(tier, ms)?.begin)).toEqual([100, 100, 400, 400])
@@ -43,7 +43,7 @@ it('finds what is at a time, half-open', () => {
   expect([100, 400, 401].map((ms) => nextBegin(tier, ms, -1))).toEqual([undefined, 100, 400])
 })
 
-it('ends where annotations refer to each other in a circle, and where names are missing', () => {
+it('terminates on circular references and missing names', () => {
   const ref = (id: string, to: string) =>
     `<ANNOTATION><REF_ANNOTATION ANNOTATION_ID="${id}" ANNOTATION_REF="${to}"><ANNOTATION_VALUE>x</ANNOTATION_VALUE></REF_ANNOTATION></ANNOTATION>`
   const { tiers } = readEaf(
@@ -57,7 +57,7 @@ it('ends where annotations refer to each other in a circle, and where names are 
   ])
 })
 
-it('reads ten thousand annotations, each by its parent', () => {
+it('reads ten thousand annotations with their parents', () => {
   const count = 10_000
   const many = (make: (k: number) => string) => Array.from({ length: count }, (_, k) => `<ANNOTATION>${make(k)}</ANNOTATION>`).join('')
   const slots = Array.from({ length: count + 1 }, (_, k) => `<TIME_SLOT TIME_SLOT_ID="t${k}" TIME_VALUE="${k}"/>`).join('')
@@ -67,7 +67,7 @@ it('reads ten thousand annotations, each by its parent', () => {
   expect(readEaf(eaf).tiers[1].annotations[count - 1]).toEqual({ begin: count - 1, end: count, label: '' })
 }, 120_000)
 
-it('refuses what is no EAF', () => {
+it('rejects text that is not an EAF', () => {
   expect(() => readEaf('<html/>')).toThrow('noEaf')
   expect(() => readEaf('<ANNOTATION_DOCUMENT>')).toThrow('noEaf')
 })

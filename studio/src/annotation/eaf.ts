@@ -16,8 +16,8 @@ interface Span {
 }
 
 /**
- * Reads an EAF. Annotations that take their time from their parent share it evenly where a parent has several, in their
- * order; slots without a time lie evenly between their neighbours of the same parent. Throws where it is no EAF.
+ * Reads an EAF. Annotations that take their time from a common parent annotation share its span evenly, in their order; time slots without a value are spaced
+ * evenly between their neighbours of the same parent. Throws if the text is not an EAF.
  */
 export function readEaf(text: string): AnnotationDocument {
   const xml = new DOMParser().parseFromString(text, 'application/xml')
@@ -41,7 +41,7 @@ export function readEaf(text: string): AnnotationDocument {
     const known = spans.get(one)
     if (known) return known
     let span = { begin: one.begin ?? 0, end: one.end ?? one.begin ?? 0 }
-    spans.set(one, span) // a circle of references ends here
+    spans.set(one, span) // breaks a cycle of references
     const parent = one.parent ? raw.get(one.parent) : undefined
     if (parent) {
       const whole = spanOf(parent)
@@ -61,14 +61,14 @@ export function readEaf(text: string): AnnotationDocument {
   return { tiers: childrenAfterParents(tiers) }
 }
 
-/** The elements right below one, of a name where one is given. Walks, since selectors take seconds for an hour of annotation. */
+/** Returns the child elements, optionally only those with a given name. Walks the children, because selectors take seconds for an hour of annotation. */
 function childrenOf(element: Element, name?: string): Element[] {
   const found: Element[] = []
   for (let one = element.firstElementChild; one; one = one.nextElementSibling) if (!name || one.nodeName === name) found.push(one)
   return found
 }
 
-/** Slots in their order; those without a time lie evenly between the ones around them that have one. */
+/** Returns the time of each slot, in file order; slots without a value are spaced evenly between the nearest slots that have one. */
 function timesOf(slots: readonly Element[]): Map<string, number> {
   const times = slots.map((slot) => (slot.hasAttribute('TIME_VALUE') ? Number(slot.getAttribute('TIME_VALUE')) : NaN))
   for (let i = 0; i < times.length; ++i) {
@@ -96,7 +96,7 @@ function rawOf(element: Element, tier: number, slots: ReadonlyMap<string, number
   }
 }
 
-/** Annotations of one tier that share a parent, each with its place in their order; by tier and parent. */
+/** Groups annotations by tier and parent, and numbers those that share a parent in their order. */
 function siblingsOf(tiers: readonly (readonly Raw[])[]): Map<string, Map<Raw, number>> {
   const lists = new Map<string, Raw[]>()
   for (const one of tiers.flat()) {

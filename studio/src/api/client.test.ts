@@ -2,7 +2,7 @@ import { afterEach, beforeEach, expect, it, vi } from 'vitest'
 import { Api } from './client'
 import { ApiError, StudioFault } from './fault'
 
-/** What the server answers, one after the other; none where it is away. The last again and again. */
+/** Mocks the server's answers, one after the other; undefined means that the server is unreachable. The last answer repeats. */
 function answering(...answers: readonly ({ status?: number; body: object } | undefined)[]) {
   let n = 0
   vi.stubGlobal('fetch', () => {
@@ -15,26 +15,26 @@ function answering(...answers: readonly ({ status?: number; body: object } | und
 beforeEach(() => void vi.useFakeTimers())
 afterEach(() => (vi.useRealTimers(), vi.unstubAllGlobals()))
 
-/** What comes of a job when time passes. */
+/** Returns the result of a job while fake time passes. */
 async function waited(api: Api): Promise<unknown> {
   const over = api.result({ job: '7' }).catch((fault: unknown) => fault)
   await vi.advanceTimersByTimeAsync(120_000)
   return over
 }
 
-it('waits for a job through a silence of the server', async () => {
+it('waits for a job while the server is unreachable', async () => {
   answering({ body: { state: 'running' } }, undefined, undefined, { body: { state: 'done', result: 'stored' } })
   expect(await waited(new Api())).toBe('stored')
 })
 
-it('gives a job up where the server stays away, or says that there is none', async () => {
+it('abandons a job if the server stays unreachable or does not know it', async () => {
   answering(undefined)
   expect(await waited(new Api())).toBeInstanceOf(StudioFault)
   answering({ status: 404, body: { error: { message: 'no job 7', code: 'not_found' } } })
   expect(await waited(new Api())).toBeInstanceOf(ApiError)
 })
 
-it('tells what recordings declare by the database that the call was about', async () => {
+it('reports the declarations of recordings by database', async () => {
   const api = new Api(),
     heard: unknown[] = []
   api.onDeclarations = (declarations, database) => heard.push([database, declarations])

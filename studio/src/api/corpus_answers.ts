@@ -1,3 +1,4 @@
+import type { Remedy } from './fault'
 import type { JobState, RecordingRow } from './answers'
 
 /// What the calls that fill and change a database answer, as far as the studio reads it. Times are ms, lengths metres.
@@ -14,6 +15,7 @@ export interface FormatRow {
 export interface Notice {
   readonly where: string
   readonly text: string
+  readonly remedies?: readonly Remedy[]
 }
 
 /** A recording of the list, with how it is stored. One without motion has no frames. */
@@ -96,6 +98,8 @@ export interface Inspected {
   /** The database has one of this name. */
   readonly known: boolean
   readonly error?: string
+  /** What would fix the error. */
+  readonly remedies?: readonly Remedy[]
   readonly signer?: string
   readonly frames?: number
   readonly frames_per_second?: number
@@ -127,6 +131,8 @@ export interface Imported {
   readonly name: string
   readonly outcome: string
   readonly error?: string
+  /** What would fix the error. */
+  readonly remedies?: readonly Remedy[]
   readonly frames?: number
   readonly signs?: number
   readonly defects?: number

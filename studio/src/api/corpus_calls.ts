@@ -4,7 +4,7 @@ import { faultOf, path, type Api } from './client'
 import type { DatabaseInfo, FormatRow, Proposals, StoredRecording } from './corpus_answers'
 import { StudioFault } from './fault'
 
-/// The calls that fill and change a database, and those that tell how it is stored.
+/// Calls that fill and change a database, and calls that report how it is stored.
 
 export const formats = (api: Api): Promise<readonly FormatRow[]> => api.json('formats')
 export const databaseInfo = (api: Api, database: string): Promise<DatabaseInfo> => api.json(path('databases', database))
@@ -12,7 +12,7 @@ export const storedRecording = (api: Api, database: string, recording: string): 
   api.json(path('databases', database, 'recordings', recording))
 export const proposals = (api: Api, database: string, recording: string, signal?: AbortSignal): Promise<Proposals> =>
   api.json(path('databases', database, 'recordings', recording, 'segment'), { signal })
-/** The annotation's bytes, in whatever encoding it was stored. */
+/** Returns the annotation's bytes in the encoding in which it was stored. */
 export async function annotationBytes(api: Api, database: string, recording: string, signal?: AbortSignal): Promise<ArrayBuffer> {
   return (await api.call(path('databases', database, 'recordings', recording, 'annotation'), { signal })).arrayBuffer()
 }
@@ -21,17 +21,17 @@ export async function openUpload(api: Api, database: string): Promise<string> {
   return (await api.json<{ upload: string }>(path('databases', database, 'uploads'), { method: 'POST' })).upload
 }
 export async function discardUpload(api: Api, database: string, upload: string): Promise<void> {
-  await api.call(path('databases', database, 'uploads', upload), { method: 'DELETE', keepalive: true }) // also where the window goes
+  await api.call(path('databases', database, 'uploads', upload), { method: 'DELETE', keepalive: true }) // also sent while the window closes
 }
-/** Takes a file out of an upload. */
+/** Removes a file from an upload. */
 export async function removeUploaded(api: Api, database: string, upload: string, file: string): Promise<void> {
   await api.call(path('databases', database, 'uploads', upload, 'files', file), { method: 'DELETE' })
 }
-/** Begins a job on an upload: `body` has the parameters of an import. */
+/** Starts a job on an upload; `body` holds the parameters of an import. */
 export async function beginUpload(api: Api, database: string, upload: string, call: 'inspect' | 'import', body: object): Promise<JobBegun> {
   return (await api.post(path('databases', database, 'uploads', upload, call), body)).json() as Promise<JobBegun>
 }
-/** A piece of a file's motion as an import would store it: `body` has the parameters of an import, and `file`. */
+/** Fetches part of a file's motion as an import would store it; `body` holds the parameters of an import and `file`. */
 export async function previewUpload(api: Api, database: string, upload: string, body: object, taker: FrameTaker, signal?: AbortSignal): Promise<void> {
   const response = await api.post(path('databases', database, 'uploads', upload, 'preview'), body, signal)
   await readFrames(response.body!, taker)
@@ -45,22 +45,19 @@ export async function cancelJob(api: Api, job: string): Promise<void> {
 export async function removeRecording(api: Api, database: string, recording: string): Promise<void> {
   await api.call(path('databases', database, 'recordings', recording), { method: 'DELETE' })
 }
-/** Whether the database may be changed. */
+/** Returns whether the database may be changed. */
 export async function isWritable(api: Api, database: string): Promise<boolean> {
   return (await api.databases()).find(({ name }) => name === database)?.writable ?? false
 }
 
-/**
- * Sends a file under its plain name, and tells how many of its bytes have gone; `fetch` does not tell that. Rejects with the signal's reason where it is
- * given up.
- */
+/** Sends a file under its plain name and reports the number of bytes sent, which `fetch` cannot do. Rejects with the signal's reason if aborted. */
 export function sendFile(
   api: Api,
   database: string,
   upload: string,
   name: string,
   file: Blob,
-  told: (bytes: number) => void,
+  onprogress: (bytes: number) => void,
   signal: AbortSignal,
 ): Promise<void> {
   const { url, headers } = api.request(path('databases', database, 'uploads', upload, 'files', name))
@@ -69,7 +66,7 @@ export function sendFile(
     const request = new XMLHttpRequest()
     const stop = () => request.abort()
     signal.addEventListener('abort', stop, { once: true })
-    request.upload.onprogress = ({ loaded }) => told(loaded)
+    request.upload.onprogress = ({ loaded }) => onprogress(loaded)
     request.onabort = () => reject(signal.reason)
     request.onerror = () => reject(new StudioFault('unreachable'))
     request.onload = () => (request.status < 300 ? resolve() : reject(faultOf(request.responseText, request.status)))

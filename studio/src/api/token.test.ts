@@ -10,7 +10,7 @@ const store = () => {
   }
 }
 
-it('keeps a token, and forgets it', () => {
+it('stores a token, and forgets it', () => {
   const kept = store()
   expect(keptToken(kept)).toBe('')
   keepToken('secret', kept)
@@ -19,7 +19,7 @@ it('keeps a token, and forgets it', () => {
   expect(keptToken(kept)).toBe('')
 })
 
-it('does without where the browser keeps nothing', () => {
+it('works in a browser that stores nothing', () => {
   const none = () => {
     throw new Error('SecurityError')
   }
@@ -28,7 +28,7 @@ it('does without where the browser keeps nothing', () => {
   expect(() => keepToken('secret', closed)).not.toThrow()
 })
 
-it('takes the token out of an address', () => {
+it('removes the token from an address', () => {
   expect(tokenIn('https://x.org/studio/?token=S%2B1&a=b#/demo')).toEqual({ token: 'S+1', rest: 'https://x.org/studio/?a=b#/demo' })
   expect(tokenIn('https://x.org/studio/#/demo')).toEqual({ token: undefined, rest: 'https://x.org/studio/#/demo' })
 })

@@ -1,8 +1,8 @@
-/** The token that a server asks for. It is kept until the page is closed, also over a reload, and stands in no address that one sees. */
+/** The token that a server requires. It is stored until the page is closed, survives a reload, and never appears in a visible address. */
 
 const kKey = 'signweave.token'
 
-/** Only where somebody looks for it: a browser may keep nothing. */
+/** Accessed only when needed: a browser may refuse storage. */
 type Kept = Pick<Storage, 'getItem' | 'setItem' | 'removeItem'>
 
 export function keptToken(kept: Kept = sessionStorage): string {
@@ -18,11 +18,11 @@ export function keepToken(token: string, kept: Kept = sessionStorage): void {
     if (token) kept.setItem(kKey, token)
     else kept.removeItem(kKey)
   } catch {
-    // It is known until a reload, then.
+    // In that case it is known until the next reload.
   }
 }
 
-/** The token of a link such as `…/?token=TOKEN#/demo`, and the address without it. */
+/** Returns the token of a link such as `…/?token=TOKEN#/demo`, and the address without it. */
 export function tokenIn(address: string): { readonly token?: string; readonly rest: string } {
   const url = new URL(address)
   const token = url.searchParams.get('token') ?? undefined

@@ -11,7 +11,7 @@ const glosses = glossesOf([
 const recordings = new Map([['r', 50]])
 const project = withJoin(withPlaces(kEmpty, placesOf('X A#2 gone@1..20 Y , B#9 B r@1..20 A')), 5, { method: 'gap' })
 
-it('asks what tokens cost without the places that the database does not know', () => {
+it('requests token costs without the places that the database does not know', () => {
   const utterance = 'A#2 B r@1..20 A'
   expect(askingOf(project, 1, glosses, recordings)).toEqual({ body: { utterance: 'A B r@1..20 A', junctions: ['1=gap'] }, at: 0 })
   expect(askingOf(project, 5, glosses, recordings)).toEqual({ body: { utterance, junctions: ['1=gap'] }, at: 1 })
@@ -19,7 +19,7 @@ it('asks what tokens cost without the places that the database does not know', (
   expect(askingOf(project, 4, glosses, recordings)).toEqual({ body: { utterance: 'A#2 , B B r@1..20 A', junctions: ['2=gap'] }, at: 1 })
 })
 
-it('asks nothing of a place that is not known, or is no sign', () => {
+it('requests nothing for a place that is unknown or not a sign', () => {
   expect([0, 2, 3, 6, 8].map((at) => askingOf(project, at, glosses, recordings))).toEqual([undefined, undefined, undefined, undefined, undefined])
   expect(askingOf(project, 3, undefined, new Map())).toEqual({ body: { utterance: 'X A#2 gone@1..20 Y , B#9 B r@1..20 A', junctions: ['5=gap'] }, at: 3 })
 })

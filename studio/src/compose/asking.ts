@@ -2,15 +2,15 @@ import { bodyOf, type SignBody } from './body'
 import { tokensOf, type Glosses } from './complete'
 import { withPlaces, withToken, type Place, type Project } from './project'
 
-/** The call that tells what the tokens of a place cost, and which place of that call it is. */
+/** The call that returns the costs of the tokens of a place, and the index of the place in that call. */
 export interface Asking {
   readonly body: SignBody
   readonly at: number
 }
 
 /**
- * Asks of a place, left open, without those beside it that a database does not know: one of them would spoil the call. None where the
- * place is no sign, or is not known itself. `glosses` and `recordings` may still be to come.
+ * Builds the call for one place, with its token left open and without neighbours unknown to the database, any of which would fail the call. Returns undefined
+ * if the place is no sign or is unknown itself. `glosses` and `recordings` may not be loaded yet.
  */
 export function askingOf(project: Project, at: number, glosses: Glosses | undefined, recordings: ReadonlyMap<string, unknown>): Asking | undefined {
   const open = withToken(project, at, 0)

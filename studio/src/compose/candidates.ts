@@ -5,35 +5,35 @@ interface Term {
   readonly of: 'target' | 'join'
   readonly cost: number
 }
-/** A token that may fill a place, with what speaks against it. */
+/** A token that may fill a place, with its costs. */
 export interface Candidate {
   readonly token: number
   readonly recording: string
-  /** Frame of its recording that it begins at. */
+  /** The frame of its recording at which it begins. */
   readonly frame: number
   readonly cost: number
-  /** What stands alone, and its join to the sign before; none of the first place. */
+  /** The cost of the token alone, and of its join to the previous sign; the first place has no join. */
   readonly target: number
   readonly join?: number
-  /** It was recorded right after the sign before, and that transition is kept. */
+  /** It was recorded right after the previous sign, and that transition is kept. */
   readonly kept: boolean
-  /** What the costs are made of, by the server's names, without what is nothing; the greatest first. */
+  /** The cost terms, by the server's names, without negligible ones; greatest first. */
   readonly terms: readonly Term[]
-  /** The one that costs least with all the others. */
+  /** The candidate with the lowest total cost. */
   readonly best: boolean
 }
 
-/** Costs below this say nothing: they would be shown as 0. */
+/** Costs below this are negligible: they would be shown as 0. */
 const kNothing = 0.005
 
-/** The candidates of a place, the cheapest first. */
+/** Returns the candidates of a place, cheapest first. */
 export function candidatesOf({ places }: ExplainedReport, place: number): Candidate[] {
   const { candidates, chosen } = places[place]
   return candidates.map((row, k) => candidateOf(row, k === chosen)).sort((a, b) => a.cost - b.cost || a.token - b.token)
 }
 
 function candidateOf({ token, recording, frames, cost, target_cost, target, kept, join_cost, join }: CandidateRow, best: boolean): Candidate {
-  // Of the join to the sign after it only the whole is told.
+  // Of the join to the next sign only the total is reported.
   const after = cost - target_cost - (join_cost ?? 0)
   const terms = [...termsOf(target, 'target'), ...(kept ? [] : termsOf(join ?? {}, 'join')), ...termsOf({ after }, 'join')].sort((a, b) => b.cost - a.cost)
   return { token, recording, frame: frames.begin, cost, target: target_cost, join: join_cost, kept: kept ?? false, terms, best }
@@ -45,7 +45,7 @@ function termsOf(terms: Readonly<Record<string, number>>, of: Term['of']): Term[
     .map(([name, cost]) => ({ name, of, cost }))
 }
 
-/** The token that was chosen for each place; 0 of a piece. */
+/** Returns the token chosen for each place; 0 for a piece. */
 export function chosenTokens({ places }: ExplainedReport): number[] {
   return places.map(({ candidates, chosen }) => candidates[chosen]?.token ?? 0)
 }

@@ -1,15 +1,15 @@
 import type { Place } from './project'
 import { sameSign } from './project'
 
-/** Places between the first and the last that changed are compared one with another; of more than so many only by their order. */
+/** Up to this many changed places are compared with one another; beyond that, places are matched by their order only. */
 const kMostCompared = 400
 
 /**
- * Places that were read from a text take over, from those that were there, what a text does not hold: which place they are, and how
- * they are joined. Those that ask for the same sign are the same place, as many as can be in order.
+ * Transfers what a text does not hold, the ids and joins, from existing places to places read from a text. Places for the same sign are matched, as many as can
+ * be in order.
  */
 export function carried(before: readonly Place[], read: readonly Place[]): Place[] {
-  // Before the first place a text says nothing, so that what waits there stays.
+  // A text holds no pause or join before the first place, so these are preserved there.
   const take = (old: Place, fresh: Place): Place => ({ ...fresh, id: old.id, join: old.join, pause: fresh === read[0] ? old.pause : fresh.pause })
   const result = [...read]
   let from = 0
@@ -30,9 +30,9 @@ export function carried(before: readonly Place[], read: readonly Place[]): Place
   return result
 }
 
-/** Places of both lists that ask for the same sign, as many as there can be in the order of both. */
+/** Returns the longest common subsequence of both lists: pairs of places for the same sign. */
 function pairs(old: readonly Place[], fresh: readonly Place[]): [number, number][] {
-  // One word retyped is the same place with another sign.
+  // A retyped word is the same place with another sign.
   if (old.length === 1 && fresh.length === 1) return [[0, 0]]
   if (old.length > kMostCompared || fresh.length > kMostCompared) return []
   const longest = Array.from({ length: old.length + 1 }, () => new Uint16Array(fresh.length + 1))

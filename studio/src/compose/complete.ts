@@ -4,15 +4,15 @@ export interface GlossEntry {
   readonly tokens: number
   readonly folded: string
 }
-/** The glosses of a database, made ready to be found by what is typed. */
+/** The glosses of a database, prepared for completion. */
 export interface Glosses {
-  /** In the order of their folded forms. */
+  /** Ordered by their folded forms. */
   readonly entries: readonly GlossEntry[]
-  /** As the server compares them, with how many tokens each has. */
+  /** Keys folded as the server compares them; values are numbers of tokens. */
   readonly known: ReadonlyMap<string, number>
 }
 
-/** Without accents and case: what is typed finds glosses that differ in nothing else. */
+/** Removes accents and case, so that typed text finds glosses that differ only in these. */
 export function folded(text: string): string {
   return text
     .normalize('NFD')
@@ -27,12 +27,12 @@ export function glossesOf(rows: readonly { readonly gloss: string; readonly toke
   return { entries, known: new Map(rows.map(({ gloss, tokens }) => [matched(gloss), tokens])) }
 }
 
-/** How many tokens a gloss has; none where the database does not know it. */
+/** Returns the number of tokens of a gloss; undefined if the database does not know it. */
 export function tokensOf(glosses: Glosses, gloss: string): number | undefined {
   return glosses.known.get(matched(gloss))
 }
 
-/** Glosses that begin with what is typed, then those that hold it, each in the order of the alphabet; of nothing typed the first ones. */
+/** Returns the glosses that begin with the typed text, then those that contain it, each in alphabetical order; the first glosses if nothing is typed. */
 export function completions({ entries }: Glosses, typed: string, most = 50): GlossEntry[] {
   const wanted = folded(typed.trim())
   let low = 0,
@@ -53,7 +53,7 @@ export function completions({ entries }: Glosses, typed: string, most = 50): Glo
   return found
 }
 
-/** The word of an utterance that is being typed at a place: its ends, and what it says so far without quotes. */
+/** The word being typed at the caret: its range, and its text so far without quotes. */
 export interface TypedWord {
   readonly from: number
   readonly to: number

@@ -4,7 +4,7 @@ import { begun, did, redone, undone, type History } from './history'
 import { duplicated, inserted, kEmpty, moved, removed, sameProject, withPlaces, type Place, type Project } from './project'
 import { projectOf, stateOf } from './state'
 
-/** What the panel beside the picture is about: a place, the junction before a place (by the place's id), or all of it. */
+/** The subject of the side panel: a place, the junction before a place (by the place's id), or the whole project. */
 export type Selected = { readonly kind: 'place' | 'junction'; readonly id: number } | { readonly kind: 'all' }
 
 interface Kept {
@@ -13,26 +13,26 @@ interface Kept {
   readonly unread?: string
 }
 /**
- * What was composed last of each database since the page was loaded: whoever comes back goes on with it. The address is written a
- * little after a step, so that one that was left at once still says what was before; it is told by `written`.
+ * The last composition of each database since the page was loaded, so that a returning user can continue. The address is written shortly after a step, so an
+ * address left immediately still holds the previous state; `written` detects this.
  */
 const kept = new Map<string, Kept>()
 
-/** A project while somebody works on it: every step can be taken back. */
+/** A project being edited; every step can be undone. */
 export class Composition {
   private history = $state.raw<History<Project>>(begun(kEmpty))
   selected = $state.raw<Selected>({ kind: 'all' })
   readonly project = $derived(this.history.now)
   readonly canUndo = $derived(this.history.past.length > 0)
   readonly canRedo = $derived(this.history.future.length > 0)
-  /** A text in which signs cannot be read: it stands in the field until it is put right. */
+  /** A text that cannot be read as signs: it stays in the field until it is corrected. */
   private faulty = $state.raw<string | undefined>()
-  /** The state that the address was given last, as text; empty before the first. */
+  /** The state written to the address last, as text; empty before the first. */
   private written = ''
 
   constructor(private readonly database: string) {}
 
-  /** Takes over what an address says; names what in it could not be read. An address without anything goes on with what was there. */
+  /** Adopts the state of an address and returns the names of parameters that could not be read. An empty address continues with the previous state. */
   follow(state: WorkState): readonly string[] {
     const text = JSON.stringify(state)
     if (text === this.written) return []
@@ -59,10 +59,10 @@ export class Composition {
     this.faulty = text
     this.keep()
   }
-  /** What the address should say; none where it says so already. */
+  /** Returns the state to write to the address; undefined if it is already there. */
   address(): WorkState | undefined {
     const state = stateOf(this.project)
-    // A link that cannot be read stays what it is, until there is something else to say.
+    // An unreadable link stays as it is until there is something else to write.
     if (this.faulty !== undefined && this.project.places.length === 0) state.utterance = this.faulty
     const text = JSON.stringify(state)
     if (text === this.written) return undefined
@@ -71,7 +71,7 @@ export class Composition {
     return state
   }
 
-  /** `of` names what is changed, where further changes of it are the same step. */
+  /** `of` names what is changed; further changes of the same are merged into one step. */
   change(next: Project, of?: string): void {
     if (next !== this.project) this.history = did(this.history, next, of, performance.now())
     this.settle()
@@ -85,7 +85,7 @@ export class Composition {
     this.settle()
   }
 
-  /** Places as a text has them now. */
+  /** Replaces the places by those read from a text. */
   type(places: readonly Place[]): void {
     const next = withPlaces(this.project, carried(this.project.places, places))
     if (!sameProject(next, this.project)) this.change(next, 'text')
@@ -94,7 +94,7 @@ export class Composition {
     this.change(inserted(this.project, at, ...places))
     this.selected = { kind: 'place', id: places[places.length - 1].id }
   }
-  /** Takes a place out; what stands there then is selected. */
+  /** Removes a place and selects the one that takes its position. */
   remove(at: number): void {
     this.change(removed(this.project, at))
     const { places } = this.project
@@ -109,12 +109,12 @@ export class Composition {
     this.selected = { kind: 'place', id: this.project.places[at + 1].id }
   }
 
-  /** Where the place stands that the selection is about; −1 where it is about all. */
+  /** Returns the index of the selected place; −1 if the whole project is selected. */
   indexOf(selected: Selected): number {
     return selected.kind === 'all' ? -1 : this.project.places.findIndex(({ id }) => id === selected.id)
   }
 
-  /** After each step: it is kept for whoever comes back. A selection of what is gone, or of the junction before the first place, is none. */
+  /** Called after each step: saves the state for a returning user and resets a selection of a removed place or of the junction before the first place. */
   private settle(): void {
     this.keep()
     const at = this.indexOf(this.selected)

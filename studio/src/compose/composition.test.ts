@@ -6,17 +6,17 @@ import { textOf } from './utterance'
 
 const said = ({ project }: Composition) => textOf(project.places)
 let databases = 0
-/** The page, as it is when somebody comes to an address; `leave` is to come anew to another. */
+/** Creates the page's state as at an address; `leave` opens another address afresh. */
 function come(state: Record<string, string>, database = `d${++databases}`) {
   const composition = new Composition(database)
   const wrong = composition.follow(state)
   return { composition, wrong, leave: (to: Record<string, string>) => come(to, database) }
 }
 
-it('goes on with what was done last, also where the address was left before it said so, and can take it back', () => {
+it('continues with the last change, even if the address was left before it was written, and can undo it', () => {
   const { composition, leave } = come({ utterance: 'A' })
   composition.insert(1, signPlace('B'))
-  const again = leave({ utterance: 'A' }) // by the back key
+  const again = leave({ utterance: 'A' }) // with the back key
   expect([said(again.composition), again.composition.address()]).toEqual(['A B', { utterance: 'A B' }])
   again.composition.undo()
   expect([said(again.composition), again.composition.canRedo]).toEqual(['A', true])
@@ -25,7 +25,7 @@ it('goes on with what was done last, also where the address was left before it s
   expect(said(again.leave({}).composition)).toBe('A B')
 })
 
-it('opens what a link says that is none of those', () => {
+it('opens a link with different content', () => {
   const { composition, leave } = come({ utterance: 'A' })
   composition.insert(1, signPlace('B'))
   const other = leave({ utterance: 'C' }).composition
@@ -35,7 +35,7 @@ it('opens what a link says that is none of those', () => {
   expect(said(other)).toBe('C')
 })
 
-it('keeps the text of a link that cannot be read, in the address, too, until something else is said', () => {
+it('keeps the unreadable text of a link, also in the address, until there is other content', () => {
   const { composition, wrong, leave } = come({ utterance: 'A "B' })
   expect([composition.unread, wrong, composition.address()]).toEqual(['A "B', ['utterance'], undefined])
   expect(leave({ utterance: 'A "B' }).composition.unread).toBe('A "B')
@@ -46,7 +46,7 @@ it('keeps the text of a link that cannot be read, in the address, too, until som
   expect([composition.unread, said(composition)]).toEqual([undefined, 'Y'])
 })
 
-it('links to a project without the token of who copies the link', () => {
+it("links to a project without the user's token", () => {
   const { composition } = come({ utterance: 'A' })
   expect(linkTo(composition.project, 'demo', 'https://x.org/studio/?token=SECRET#/demo/compose?utterance=B')).toBe(
     'https://x.org/studio/#/demo/compose?utterance=A',

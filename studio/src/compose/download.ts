@@ -1,4 +1,4 @@
-/** Lets the browser save something as a file. */
+/** Saves something as a file through the browser. */
 export function download(what: Blob | string, name: string, type = 'application/json'): void {
   const blob = typeof what === 'string' ? new Blob([what], { type }) : what
   const url = URL.createObjectURL(blob)
@@ -6,11 +6,11 @@ export function download(what: Blob | string, name: string, type = 'application/
   link.href = url
   link.download = name
   link.click()
-  // The browser takes the bytes up later than the click.
+  // The browser reads the bytes some time after the click.
   setTimeout(() => URL.revokeObjectURL(url), 60_000)
 }
 
-/** A text as the name of a file: without what systems forbid, not too long. */
+/** Turns a text into a file name: without characters that file systems forbid, and not too long. */
 export function fileName(title: string, ending: string): string {
   const plain = title
     .normalize('NFC')

@@ -1,7 +1,7 @@
 import { expect, it } from 'vitest'
 import { Downloads } from './downloads'
 
-it('makes files side by side, and says which are still being made', async () => {
+it('prepares files in parallel, and lists those in preparation', async () => {
   const saved: string[] = [],
     said: unknown[] = [],
     ends: ((fault?: Error) => void)[] = []

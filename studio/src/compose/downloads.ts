@@ -1,17 +1,17 @@
-/** Files that are being made, as many at once as somebody asks for. */
+/** Files in preparation; any number may run at once. */
 export class Downloads {
   private readonly under = new Map<AbortController, string>()
 
   constructor(
     private readonly save: (file: Blob, name: string) => void,
-    /** Told what was done or went wrong last, if anything, and what is still being made. */
-    private readonly told: (names: readonly string[], done?: { readonly name: string; readonly fault?: unknown }) => void,
+    /** Called with the names still in preparation and, if there is one, the last success or failure. */
+    private readonly report: (names: readonly string[], done?: { readonly name: string; readonly fault?: unknown }) => void,
   ) {}
 
   async get(name: string, make: (signal: AbortSignal) => Promise<Blob>): Promise<void> {
     const mine = new AbortController()
     this.under.set(mine, name)
-    this.told(this.names)
+    this.report(this.names)
     let fault: unknown
     try {
       const file = await make(mine.signal)
@@ -20,9 +20,9 @@ export class Downloads {
       fault = wrong
     }
     this.under.delete(mine)
-    if (!mine.signal.aborted) this.told(this.names, { name, fault })
+    if (!mine.signal.aborted) this.report(this.names, { name, fault })
   }
-  /** Gives all up. */
+  /** Cancels all downloads. */
   stop(): void {
     for (const one of this.under.keys()) one.abort()
   }

@@ -1,4 +1,4 @@
-/** Where a card is on the screen. */
+/** The position of a card on the screen. */
 export interface Box {
   readonly left: number
   readonly right: number
@@ -6,7 +6,10 @@ export interface Box {
   readonly bottom: number
 }
 
-/** Before which card something falls that is let go at a point: cards stand in lines, read from the left; their number means the end. */
+/**
+ * Returns the index of the card before which something dropped at a point is inserted: cards are in lines, read from the left; the number of cards means the
+ * end.
+ */
 export function dropAt(boxes: readonly Box[], x: number, y: number): number {
   let at = 0
   for (const { left, right, top, bottom } of boxes) {
@@ -19,7 +22,7 @@ export function dropAt(boxes: readonly Box[], x: number, y: number): number {
 }
 
 const kEdge = 10
-/** How many px a list of lines moves on while something is dragged to a point near its upper or lower border, or beyond. */
+/** Returns how many px a list scrolls while something is dragged near or beyond its upper or lower border. */
 export function scrollAt({ top, bottom }: Pick<Box, 'top' | 'bottom'>, y: number): number {
   return y < top + kEdge ? -kEdge : y > bottom - kEdge ? kEdge : 0
 }

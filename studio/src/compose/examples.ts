@@ -1,9 +1,9 @@
 import { signPlace, withPlaces, type Place, type Project } from './project'
 import { tokensOf, type Glosses } from './complete'
 
-/** A sign of a recording: a gloss, and which of those of the recording, from 1. */
+/** A sign of a recording: a gloss, and its occurrence in the recording, from 1. */
 type Own = readonly [gloss: string, token: number]
-/** A scenario of the paper (section 5.1): signs of a recording that others replace, or two runs of it that change places. */
+/** A scenario of the paper (section 5.1): signs of a recording that are replaced, or two runs of signs that are swapped. */
 export interface Scenario {
   readonly name: 'scenario1' | 'scenario2'
   readonly recording: string
@@ -32,16 +32,16 @@ export const kScenarios: readonly Scenario[] = [
   },
 ]
 
-/** Whether a database has what a scenario needs. */
+/** Returns whether a database has what a scenario needs. */
 export function isThere({ recording, replace, swap }: Scenario, recordings: readonly string[], glosses: Glosses): boolean {
   const wanted = [...(replace ?? []).flatMap(({ from, by }) => [from[0], by]), ...(swap ?? []).flatMap(({ first, last }) => [first[0], last[0]])]
   return recordings.includes(recording) && wanted.every((gloss) => tokensOf(glosses, gloss) !== undefined)
 }
 
-/** What becomes of a recording in a scenario. None where the recording lacks a sign of it, or its runs overlap. */
+/** Applies a scenario to a recording. Returns undefined if the recording lacks one of its signs, or if its runs overlap. */
 export function played(scenario: Scenario, recording: Project): Project | undefined {
   const { places } = recording
-  // A place that is a piece, for want of a token, has no gloss to be found by; the scenarios' own signs are all tokens.
+  // A place that is a piece, for lack of a token, has no gloss to search for; the scenarios' own signs are all tokens.
   const find = ([gloss, token]: Own): number => {
     let count = 0
     return places.findIndex((place) => place.kind === 'sign' && place.gloss === gloss && ++count === token)

@@ -3,11 +3,11 @@ import { kAligns, kHow, kMostPlaces, kPauses, piecePlace, signPlace, withPlaces,
 import { isRate } from './state'
 import { canBeTyped } from './utterance'
 
-/** Of the files that this studio writes. */
+/** The version of the files that this studio writes. */
 const kVersion = 1
 const kName = 'signweave compose'
 
-/** What is wrong with a project file, by the key of its words; `detail` says where or what. */
+/** The faults of a project file, named by the key of their message; `detail` gives the position or the field. */
 export type FileWrong = 'notJson' | 'notProject' | 'newerVersion' | 'unknownField' | 'badValue' | 'tooManyPlaces'
 export class FileFault extends Error {
   constructor(
@@ -18,7 +18,7 @@ export class FileFault extends Error {
   }
 }
 
-/** A project as a file, for people to read, too. */
+/** Writes a project as a file, formatted for people to read. */
 export function fileOf({ places, how, original }: Project, database: string): string {
   return (
     JSON.stringify(
@@ -51,10 +51,10 @@ function placeRow(place: Place): object {
 
 export interface FileRead {
   readonly project: Project
-  /** The database that it was made with; it may be another one. */ readonly database?: string
+  /** The database in which it was made, which may not be the current one. */ readonly database?: string
 }
 
-/** Reads a project file. Throws FileFault; a field that this version does not know is one, for it would be lost. */
+/** Reads a project file. Throws FileFault, also for a field that this version does not know, because it would be lost. */
 export function readFile(text: string): FileRead {
   let given: unknown
   try {

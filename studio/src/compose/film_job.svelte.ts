@@ -3,19 +3,19 @@ import type { RenderRequest, RenderView } from '../render/request'
 import type { Text } from '../text/en'
 import type { SignBody } from './body'
 
-/** How large films are. */
+/** The sizes of films. */
 export const kFilmSizes = ['640x360', '1280x720', '1920x1080'] as const
 export type FilmSize = (typeof kFilmSizes)[number]
-/** Pictures a second. */
+/** Frames a second. */
 const kRate = 30
 
-/** Whether this browser can make films at all. */
+/** Whether this browser can encode video. */
 export const canFilm = (): boolean => typeof VideoEncoder !== 'undefined'
 
-/** A film that is being made in the page, picture by picture, none left out. */
+/** Renders a video in the page, frame by frame, without dropping any. */
 export class FilmJob {
   done = $state(0)
-  /** How many pictures there will be; 0 while the motion is fetched. */
+  /** The total number of frames; 0 while the motion is being fetched. */
   of = $state(0)
   private readonly abort = new AbortController()
 
@@ -23,7 +23,7 @@ export class FilmJob {
     this.abort.abort()
   }
 
-  /** Resolves with the film's bytes; none where it was given up. `character` is whose surfaces are drawn, `text` the language beneath the pictures. */
+  /** Resolves with the file's bytes; with undefined if cancelled. `character` is the character drawn, `text` the language of the captions. */
   async make(
     api: Api,
     database: string,
@@ -48,7 +48,7 @@ export class FilmJob {
       at_ms: null,
       put: '',
     }
-    // What makes films is fetched by those who want one.
+    // The encoder is loaded on first use.
     const { filmOf } = await import('../render/film_of')
     try {
       return await filmOf(api, request, (done, of) => ((this.done = done), (this.of = of)), signal, text)

@@ -6,19 +6,19 @@ const many = (history: History<number>, step: (one: History<number>) => History<
   return history.now
 }
 
-it('takes steps back and does them again', () => {
+it('undoes and redoes steps', () => {
   const history = did(did(begun(1), 2), 3)
   expect([many(history, undone, 1), many(history, undone, 2), many(history, undone, 9), redone(undone(history)).now, many(history, redone, 2)]).toEqual([
     2, 1, 1, 3, 3,
   ])
 })
 
-it('forgets what was taken back when something else is done', () => {
+it('forgets undone steps after a new change', () => {
   const history = did(undone(did(did(begun(1), 2), 3)), 4)
   expect([redone(history).now, undone(history).now]).toEqual([4, 2])
 })
 
-it('takes back together what was done of one thing in one go', () => {
+it('undoes quick changes of one subject together', () => {
   const typed = did(did(did(begun(1), 2, 'text', 0), 3, 'text', 1000), 4, 'text', 2000)
   expect(undone(typed).now).toBe(1)
   expect(undone(did(typed, 5, 'text', 9000)).now).toBe(4)
@@ -28,7 +28,7 @@ it('takes back together what was done of one thing in one go', () => {
   expect(did(typed, 4)).toBe(typed)
 })
 
-it('keeps no more than five hundred steps', () => {
+it('stores at most five hundred steps', () => {
   let history = begun(0)
   for (let i = 1; i <= 700; ++i) history = did(history, i)
   expect(many(history, undone, 700)).toBe(200)

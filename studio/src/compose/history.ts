@@ -1,22 +1,22 @@
-/** A state with those before it and those that were taken back, oldest first in `past`, next first in `future`. Never changed. */
+/** A state with the previous states (`past`, oldest first) and the undone states (`future`, next first). Immutable. */
 export interface History<T> {
   readonly past: readonly T[]
   readonly now: T
   readonly future: readonly T[]
-  /** What the newest change was of, and when it was made: changes of one thing in one go are one step. */
+  /** The subject of the newest change and its time: changes of one subject in quick succession are one step. */
   readonly of?: string
   readonly at: number
 }
 
 const kMostSteps = 500
-/** Changes of one thing that come within so many ms of each other are taken back together. */
+/** Changes of one subject within this many ms of each other are undone together. */
 const kOneGoMs = 1500
 
 export function begun<T>(now: T): History<T> {
   return { past: [], now, future: [], at: -Infinity }
 }
 
-/** `of` names what was changed, where several changes of it may be one step; `at` is ms of any clock. */
+/** Adds a state. `of` names the subject of the change, so that several changes of it can be one step; `at` is in ms of any clock. */
 export function did<T>(history: History<T>, now: T, of?: string, at = 0): History<T> {
   if (now === history.now) return history
   const goesOn = of !== undefined && of === history.of && at - history.at < kOneGoMs

@@ -1,8 +1,8 @@
 import { isPlain, kLongestMs, kTempo, type Join, type Place } from './project'
 
 /**
- * What junctions have of their own, as the server takes it: `N=PART,PART`, N the junction (1 is between the first and the second
- * place), a part a method, `450ms`, or a tempo `x1.5`.
+ * Returns the settings of single junctions in the server's syntax: `N=PART,PART`, where N is the junction (1 is between the first and the second place) and a
+ * part is a method, `450ms`, or a tempo `x1.5`.
  */
 export function joinTexts(places: readonly Place[]): string[] {
   return places.flatMap(({ join }, k) => (k === 0 || isPlain(join) ? [] : [`${k}=${joinText(join)}`]))
@@ -14,7 +14,7 @@ export function joinText({ method, durationMs, tempo }: Join): string {
     .join(',')
 }
 
-/** The number of a junction and what is said of it; none where a text says something else. */
+/** Parses the number of a junction and its settings; undefined if the text does not match. */
 export function readJoin(text: string): { junction: number; join: Join } | undefined {
   const [, number, parts] = /^(\d{1,9})=(.+)$/s.exec(text) ?? []
   if (!number || Number(number) < 1) return undefined
@@ -30,7 +30,7 @@ export function readJoin(text: string): { junction: number; join: Join } | undef
   return isJoin(join) ? { junction: Number(number), join } : undefined
 }
 
-/** Names of methods are plain words, so that they can stand in a list. */
+/** Method names are plain words, so that they can be listed. */
 export const isMethod = (text: unknown): text is string => typeof text === 'string' && /^[a-z][a-z0-9_-]*$/i.test(text)
 export const isDuration = (value: unknown): value is number => Number.isInteger(value) && (value as number) >= 0 && (value as number) <= kLongestMs
 export const isTempo = (value: unknown): value is number => typeof value === 'number' && value >= kTempo.least && value <= kTempo.most

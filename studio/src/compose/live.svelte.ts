@@ -8,10 +8,10 @@ import { SignedPlaces } from '../player/signed_places.svelte'
 import type { Showing, Strand } from '../viewer/showing'
 import { Transport } from '../viewer/transport'
 
-const kTellMs = 200
+const kProgressMs = 200
 const kNothing: AnnotationDocument = { tiers: [] }
 
-/** A signer who rests, and signs at once what is appended. */
+/** A signer at rest who immediately signs what is appended. */
 export class Live implements Showing {
   readonly transport = new Transport()
   readonly live = true
@@ -30,12 +30,12 @@ export class Live implements Showing {
   private next?: Opening
   private source?: StreamSource
   readonly signed = new SignedPlaces()
-  /** Those who wait until it is known whether there is a stream. */
+  /** Callers waiting until it is known whether there is a stream. */
   private readonly waiting: (() => void)[] = []
   private closed = false
-  private told = 0
+  private lastProgress = 0
 
-  /** `resting` is the recording whose signer rests, `how` what `open` of a stream takes. */
+  /** `resting` is the recording whose signer rests, `how` the parameters of the stream's `open`. */
   constructor(
     private readonly api: Api,
     private readonly database: string,
@@ -50,7 +50,7 @@ export class Live implements Showing {
   }
   want(): void {}
 
-  /** Opens the stream in a character's joints; another one takes the place of the one that is shown. */
+  /** Opens the stream in a character's joints, replacing the one shown. */
   wear(character: string | undefined): void {
     const isThere = this.next ? this.next.character === character : this.source !== undefined && this.current?.character === character
     if (this.closed || isThere) return
@@ -58,7 +58,7 @@ export class Live implements Showing {
     const next: Opening = (this.next = new Opening(
       character,
       (fault) => {
-        // A stream that broke is over: it is opened anew when it is asked for again.
+        // A broken stream is over: it is reopened on the next request.
         if (this.current === next) this.source = undefined
         this.note(fault)
       },
@@ -94,15 +94,15 @@ export class Live implements Showing {
         this.fail(fault)
       })
   }
-  /** No stream will come, until it is asked for again. */
+  /** There is no stream until the next request. */
   fail(fault: unknown): void {
     this.note(fault)
     this.settle()
   }
 
   /**
-   * Signs this after what is left, as soon as the stream is there. Resolves when it will be signed; rejects with the server's line
-   * (ApiError) where it cannot be, and with a StudioFault where there is no stream.
+   * Signs this after the rest of the queue, as soon as the stream is open. Resolves once it is accepted; rejects with the server's message (ApiError) if it is
+   * refused, and with a StudioFault if there is no stream.
    */
   async append(utterance: string): Promise<void> {
     while (this.busy && !this.closed) await new Promise<void>((resolve) => this.waiting.push(resolve))
@@ -133,8 +133,8 @@ export class Live implements Showing {
     this.transport.growing = true
     this.leftOut = this.source.leftOut
     const now = performance.now()
-    if (now - this.told < kTellMs) return
-    this.told = now
+    if (now - this.lastProgress < kProgressMs) return
+    this.lastProgress = now
     ++this.arrivals
   }
 

@@ -3,14 +3,14 @@ import { errorOf } from '../api/fault'
 import { meantBy } from './live_meant'
 import { piecePlace, signPlace, type Place } from './project'
 
-/** Without the numbers by which places are told apart. */
+/** Without the ids that distinguish places. */
 const plain = (places: readonly Place[]) => places.map((place) => ({ ...place, id: 0 }))
 
-it('offers the glosses that were meant, and keeps the pause and the token', () => {
+it('suggests glosses, and preserves the pause and the token', () => {
   const refused = errorOf({ message: '', code: 'not_found', missing: [{ gloss: 'VANES', matches: ['VANNES', 'LE MANS'], folds: false }] }, 0)
   expect(plain(meantBy(signPlace('VANES', 2, 'comma'), refused))).toEqual(plain([signPlace('VANNES', 2, 'comma'), signPlace('LE MANS', 2, 'comma')]))
 })
-it('offers nothing where nothing is like it', () => {
+it('suggests nothing if nothing is similar', () => {
   const refused = errorOf({ message: 'did you mean NANTES?', code: 'not_found', missing: [{ gloss: 'XQZ', matches: [], folds: false }] }, 0)
   expect(meantBy(signPlace('XQZ'), refused)).toEqual([])
   expect(meantBy(signPlace('XQZ'), errorOf({ message: 'did you mean NANTES?', code: 'conflict' }, 0))).toEqual([])

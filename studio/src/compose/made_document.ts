@@ -1,7 +1,7 @@
 import type { Report } from '../api/answers'
 import type { Annotation, AnnotationDocument, Tier } from '../annotation/document'
 
-/** How phases, places, sources and junctions are called, with what is filled in as `{…}`. */
+/** The labels of phases, places, sources and junctions, with placeholders `{…}`. */
 export interface MadeLabels {
   readonly preparation: string
   readonly stroke: string
@@ -10,7 +10,7 @@ export interface MadeLabels {
   readonly madeSource: string
   readonly madeSeam: string
 }
-/** As the EAF has them. */
+/** The labels used in the EAF. */
 export const kEafLabels: MadeLabels = {
   preparation: 'Preparation',
   stroke: 'Stroke',
@@ -20,7 +20,7 @@ export const kEafLabels: MadeLabels = {
   madeSeam: 'clip {fromClip} -> {toClip}: {method} {ms} ms: {from} -> {to} (m_i {retraction}, m_j {preparation}, p {blend})',
 }
 
-/** What was made as its EAF has it, from the report that comes with the frames: signs, phases, places, sources, junctions. */
+/** Builds the annotation of a result as its EAF has it, from the report that comes with the frames: signs, phases, places, sources, junctions. */
 export function documentOf(report: Report, labels: MadeLabels = kEafLabels): AnnotationDocument {
   const { signs, stretches, junctions, frames_per_second: rate } = report
   const ms = (frame: number) => Math.round((1000 * frame) / rate)
@@ -81,6 +81,6 @@ export function documentOf(report: Report, labels: MadeLabels = kEafLabels): Ann
 function named(kind: string, labels: MadeLabels): string {
   return kind === 'preparation' || kind === 'stroke' || kind === 'retraction' ? labels[kind] : kind.charAt(0).toUpperCase() + kind.slice(1)
 }
-/** What is filled in may hold anything, and is not read again. */
+/** Inserted values may contain anything and are not substituted again. */
 const put = (text: string, values: Readonly<Record<string, string | number>>) =>
   text.replace(/\{(\w+)\}/g, (whole, name: string) => String(values[name] ?? whole))

@@ -1,7 +1,7 @@
 import type { Report } from '../api/answers'
 import type { Api } from '../api/client'
 import type { AnnotationDocument } from '../annotation/document'
-import { beside, stepsOfSigns, type Steps } from '../motion/in_step'
+import { correspondingTime, stepsOfSigns, type Steps } from '../motion/in_step'
 import { MadeSource } from '../motion/made_source'
 import { RecordingSource } from '../motion/recording_source'
 import type { Declarations } from '../motion/declarations'
@@ -10,34 +10,35 @@ import { Opening } from '../player/opening'
 import type { Showing, Strand } from '../viewer/showing'
 import { Transport, type Loop } from '../viewer/transport'
 import { bodyOf } from './body'
-import { laidOf, type Laid } from './laid'
+import { layoutOf, type Layout } from './layout'
 import { documentOf, kEafLabels, type MadeLabels } from './made_document'
 import { firstChange, type Project } from './project'
 import { mainSigns } from './start'
 import { textOf } from './utterance'
 
-const kTellMs = 200
+const kProgressMs = 200
 const kNothing: AnnotationDocument = { tiers: [] }
-/** Seconds of what lies around a junction that are shown with it. */
+/** Seconds of context shown around a junction. */
 const kAround = 0.4
 
-/** What stands beside what is made: the recording that it was made from, or the same signs joined otherwise. */
-export type Beside = { readonly kind: 'original'; readonly recording: string } | { readonly kind: 'method'; readonly title: string; readonly other: Project }
+/** What is shown next to the result: the recording that it was made from, or the same signs joined differently. */
+export type Comparison =
+  { readonly kind: 'original'; readonly recording: string } | { readonly kind: 'method'; readonly title: string; readonly other: Project }
 
-/** What is to be shown. */
-export interface Wish {
+/** A request for a result. */
+export interface SigningRequest {
   readonly project: Project
   readonly title: string
-  readonly beside?: Beside
+  readonly comparison?: Comparison
 }
-/** What is shown: the wish, and what the server tells of it. */
+/** The displayed result: its request, and the server's report. */
 export interface Made {
-  readonly wish: Wish
+  readonly request: SigningRequest
   readonly report: Report
-  readonly laid?: Laid
+  readonly layout?: Layout
 }
 
-/** A recording that stands beside; `before` is the one that is shown until it is there. */
+/** A recording shown for comparison; `before` is the one shown until this one is loaded. */
 interface Recorded {
   readonly key: string
   readonly opening: Opening
@@ -45,39 +46,39 @@ interface Recorded {
   before?: Recorded
 }
 
-/** Signs a project anew after each change. What is shown stays until the new one is there, and stays where there never is one. */
+/** Regenerates a project's signing after each change. The previous result stays on screen until the new one is there, and also if it fails. */
 export class Making implements Showing {
   readonly transport = new Transport()
   readonly live = false
   strands = $state.raw<readonly Strand[]>([])
-  /** The strand that the transport's time and the timeline are of. */
+  /** The strand that the transport's time and the timeline belong to. */
   main = $state.raw<Strand | undefined>()
   made = $state.raw<Made | undefined>()
-  /** Something newer than what is shown is being made. */
+  /** A newer result is being generated. */
   busy = $state(false)
-  /** Why the newest could not be made, or something of it could not be had. */
+  /** Why the newest result failed, or part of it could not be loaded. */
   trouble = $state.raw<unknown>()
   arrivals = $state(0)
   declarations = $state.raw<readonly Declarations[]>([])
-  /** Pairs the strands sign by sign; else by time. */
+  /** Synchronizes the strands sign by sign; otherwise by time. */
   bySign = $state(true)
-  /** The signs of the original that is shown. */
+  /** The signs of the original shown. */
   original = $state.raw<AnnotationDocument>(kNothing)
-  /** The place before which a junction is shown again and again, by its id. */
+  /** The id of the place before which the looping junction is. */
   around: number | undefined
-  /** The loop that is around it; one that somebody set since is none of it. */
+  /** The loop around that junction; a loop that the user set since is a different one. */
   private aroundLoop: Loop | null = null
   private current?: Opening
   private next?: Opening
   private steps = $state.raw<Steps | undefined>()
-  /** A recording that stands beside: it stays while everything else is made anew. */
+  /** A recording shown for comparison: it stays while everything else is regenerated. */
   private recorded?: Recorded
-  /** What was made, as the timeline draws it. */
+  /** The result, as the timeline draws it. */
   readonly document: AnnotationDocument = $derived.by(() => (this.made ? documentOf(this.made.report, this.labels()) : kNothing))
   private closed = false
-  private told = 0
+  private lastProgress = 0
 
-  /** `labels` is how parts of it are called. */
+  /** `labels` returns the labels of its parts. */
   constructor(
     private readonly api: Api,
     private readonly database: string,
@@ -93,25 +94,25 @@ export class Making implements Showing {
 
   timeOf(strand: Strand): (seconds: number) => number {
     if (strand.source === this.main?.source) return (seconds) => seconds
-    return (seconds) => (this.steps && this.bySign ? beside(this.steps, seconds) : seconds)
+    return (seconds) => (this.steps && this.bySign ? correspondingTime(this.steps, seconds) : seconds)
   }
   want(seconds: number): void {
     for (const strand of this.strands) strand.source.want?.(this.timeOf(strand)(seconds))
   }
 
-  /** Makes what is wished for, in a character's joints; what was under way before is given up. */
-  make(wish: Wish, character: string | undefined): void {
+  /** Generates what is requested, in a character's joints; a request in progress is cancelled. */
+  make(request: SigningRequest, character: string | undefined): void {
     if (this.closed) return
     this.next?.close()
     this.next = undefined
-    if (wish.project.places.length === 0) return this.clear()
+    if (request.project.places.length === 0) return this.clear()
     const next = (this.next = new Opening(
       character,
       (fault) => this.note(fault),
       (source) => this.progress(source),
     ))
     this.busy = true
-    this.open(wish, next)
+    this.open(request, next)
       .then((strands) => {
         if (this.next !== next) return
         this.current?.close()
@@ -119,7 +120,7 @@ export class Making implements Showing {
         this.next = undefined
         this.busy = false
         this.trouble = undefined
-        this.show(wish, strands)
+        this.show(request, strands)
       })
       .catch((fault: unknown) => {
         next.close()
@@ -130,7 +131,7 @@ export class Making implements Showing {
       })
   }
 
-  /** Shows the junction before a place again and again; none where it is no junction of what is shown. */
+  /** Loops the junction before a place; returns false if it is no junction of the result. */
   loopAround(id: number): boolean {
     const seam = this.seamOf(id)
     if (!seam) return false
@@ -142,7 +143,7 @@ export class Making implements Showing {
   }
   seamOf(id: number) {
     const { made } = this
-    return made?.laid?.seams[made.wish.project.places.findIndex((place) => place.id === id)]
+    return made?.layout?.seams[made.request.project.places.findIndex((place) => place.id === id)]
   }
 
   close(): void {
@@ -153,7 +154,7 @@ export class Making implements Showing {
     this.next = undefined
   }
 
-  private async open({ project, title, beside: other }: Wish, opening: Opening): Promise<readonly Strand[]> {
+  private async open({ project, title, comparison: other }: SigningRequest, opening: Opening): Promise<readonly Strand[]> {
     const { api, database } = this
     const { character } = opening
     const sign = (one: Project, called: string) => new MadeSource(api, database, called, 'sign', bodyOf(one), character)
@@ -182,7 +183,7 @@ export class Making implements Showing {
       },
       () => {
         opening.close()
-        if (this.recorded === mine) this.recorded = mine.before // to be tried again when asked again
+        if (this.recorded === mine) this.recorded = mine.before // to be retried on the next request
       },
     )
     return mine.strand
@@ -194,49 +195,49 @@ export class Making implements Showing {
     }
   }
 
-  private show(wish: Wish, strands: readonly Strand[]): void {
+  private show(request: SigningRequest, strands: readonly Strand[]): void {
     const { transport } = this,
       before = this.made
     const main = strands.find(({ role }) => role === 'made') ?? strands[0]
     const { report } = main.motion
     if (!report) return this.note(new Error('no report'))
-    const other = wish.beside?.kind === 'method' ? strands[1].motion.report : undefined
-    const laid = laidOf(wish.project.places, report)
+    const other = request.comparison?.kind === 'method' ? strands[1].motion.report : undefined
+    const layout = layoutOf(request.project.places, report)
     this.steps = other
       ? stepsOfSigns(
           report.signs,
           other.signs.map(({ begin_ms, end_ms }) => ({ begin: begin_ms, end: end_ms })),
           0,
         )
-      : this.stepsOfOriginal(wish, report, strands[0])
-    this.made = { wish, report, laid }
+      : this.stepsOfOriginal(request, report, strands[0])
+    this.made = { request, report, layout }
     this.main = main
     this.strands = strands
-    if (wish.beside?.kind !== 'original') this.forgetOriginal()
+    if (request.comparison?.kind !== 'original') this.forgetOriginal()
     this.declarations = strands.map(({ motion }) => motion.declarations)
     const atEnd = !transport.loop && transport.time >= transport.duration - 1.5 / transport.rate
     transport.rate = main.motion.store.rate
     transport.duration = main.motion.store.seconds
     ++this.arrivals
-    this.goOn(before, wish, laid, atEnd)
+    this.goOn(before, request, layout, atEnd)
   }
 
-  /** Where the picture goes on in something new: around the same junction, else, unless it was stopped, a little before what changed. */
-  private goOn(before: Made | undefined, { project }: Wish, laid: Laid | undefined, atEnd: boolean): void {
+  /** Chooses where playback of a new result continues: around the same junction, otherwise, unless playback was paused, a little before the change. */
+  private goOn(before: Made | undefined, { project }: SigningRequest, layout: Layout | undefined, atEnd: boolean): void {
     const { transport } = this
-    const change = before ? firstChange(before.wish.project, project) : 0
+    const change = before ? firstChange(before.request.project, project) : 0
     const { time } = transport
     const wasAround = this.around !== undefined && transport.loop !== null && transport.loop === this.aroundLoop
     if (!wasAround) this.around = undefined
     else if (!this.loopAround(this.around!)) {
-      // The junction is no more: there is nothing to be shown again and again.
+      // The junction no longer exists, so there is nothing to loop.
       transport.loop = null
       this.around = undefined
     } else if (!transport.playing) transport.seek(time)
     if (transport.loop) {
       if (!wasAround) transport.setLoop(transport.loop.begin, transport.loop.end)
     } else if ((transport.playing || atEnd) && change < project.places.length) {
-      const from = change === 0 ? 0 : (laid?.seams[change]?.begin ?? laid?.places[change]?.begin ?? transport.time)
+      const from = change === 0 ? 0 : (layout?.seams[change]?.begin ?? layout?.places[change]?.begin ?? transport.time)
       transport.seek(from - (change === 0 ? 0 : kAround))
       transport.play()
       return
@@ -244,8 +245,8 @@ export class Making implements Showing {
     transport.seek(transport.time)
   }
 
-  /** The k-th sign of the original beside the k-th of what was made, where there are as many. */
-  private stepsOfOriginal({ beside: other }: Wish, { signs }: Report, { motion }: Strand): Steps | undefined {
+  /** Pairs the k-th sign of the original with the k-th of the result, if their numbers are equal. */
+  private stepsOfOriginal({ comparison: other }: SigningRequest, { signs }: Report, { motion }: Strand): Steps | undefined {
     const annotations = this.original.tiers[0]?.annotations ?? []
     return other?.kind === 'original' && annotations.length === signs.length ? stepsOfSigns(signs, annotations, motion.originMs) : undefined
   }
@@ -271,8 +272,8 @@ export class Making implements Showing {
 
   private progress(source: MotionSource): void {
     const now = performance.now()
-    if (this.closed || (!source.complete && now - this.told < kTellMs)) return
-    this.told = now
+    if (this.closed || (!source.complete && now - this.lastProgress < kProgressMs)) return
+    this.lastProgress = now
     ++this.arrivals
   }
 
@@ -281,7 +282,7 @@ export class Making implements Showing {
   }
 }
 
-/** What a project is called on the screen and as a file: its text, not too long. */
+/** Returns the title of a project on the screen and as a file: its text, shortened. */
 export function titleOf({ places }: Project, most = 60): string {
   const text = textOf(places.slice(0, most))
   return text.length > most ? `${text.slice(0, most).trimEnd()}…` : text

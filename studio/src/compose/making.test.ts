@@ -2,11 +2,11 @@ import { expect, it, vi } from 'vitest'
 import type { Report } from '../api/answers'
 import type { Api } from '../api/client'
 import type { Strand } from '../viewer/showing'
-import { Making, type Wish } from './making.svelte'
+import { Making, type SigningRequest } from './making.svelte'
 import { kEmpty, removed, signPlace, withPlaces, type Project } from './project'
 
 const kRate = 50
-/** What is made of n signs of a second each, with half a second between. */
+/** The report of n signs of a second each, half a second apart. */
 function reportOf(n: number): Report {
   const range = (begin: number, end: number) => ({ begin: begin * kRate, end: end * kRate })
   const each = Array.from({ length: n }, (_, k) => k * 1.5)
@@ -44,7 +44,7 @@ function reportOf(n: number): Report {
     })),
   }
 }
-/** As the server would answer to a project. */
+/** Shows a project as if the server had answered. */
 function show(making: Making, project: Project) {
   const report = reportOf(project.places.length)
   const motion = {
@@ -53,8 +53,8 @@ function show(making: Making, project: Project) {
     declarations: {},
     originMs: 0,
   }
-  const wish: Wish = { project, title: '' }
-  making['show'](wish, [{ role: 'made', source: { complete: true, close() {} }, motion } as unknown as Strand])
+  const request: SigningRequest = { project, title: '' }
+  making['show'](request, [{ role: 'made', source: { complete: true, close() {} }, motion } as unknown as Strand])
 }
 const abcd = withPlaces(
   kEmpty,
@@ -62,7 +62,7 @@ const abcd = withPlaces(
 )
 const around = ({ transport: { loop } }: Making) => loop && [loop.begin, loop.end].map((at) => Math.round(100 * at) / 100)
 
-it('goes on showing a junction where it went to, and none that is no more', () => {
+it('keeps looping a moved junction, and ends the loop of a removed one', () => {
   const making = new Making({} as Api, 'd')
   show(making, abcd)
   expect(making.loopAround(abcd.places[3].id)).toBe(true)
@@ -73,7 +73,7 @@ it('goes on showing a junction where it went to, and none that is no more', () =
   expect([around(making), making.around]).toEqual([null, undefined])
 })
 
-it('lets alone what somebody else chose to see again and again', () => {
+it('does not change a loop set by the user', () => {
   const making = new Making({} as Api, 'd')
   show(making, abcd)
   making.loopAround(abcd.places[3].id)
@@ -82,7 +82,7 @@ it('lets alone what somebody else chose to see again and again', () => {
   expect(around(making)).toEqual([0.5, 1])
 })
 
-it('stops fetching the recording beside where it cannot be had whole, and where nothing is left to stand beside', async () => {
+it('stops fetching the compared recording if it fails, and if the comparison is closed', async () => {
   const closed: string[] = []
   const api = {
     recording: () => new Promise(() => {}),

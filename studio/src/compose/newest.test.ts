@@ -1,7 +1,7 @@
 import { expect, it } from 'vitest'
 import { Newest } from './newest'
 
-/** Work that ends when it is told to. */
+/** Work that ends on command. */
 function work() {
   let end: (value: string) => void = () => {},
     fail: (fault: Error) => void = () => {},
@@ -10,7 +10,7 @@ function work() {
   return { run: (given: AbortSignal) => ((signal = given), done), end, fail, aborted: () => signal?.aborted }
 }
 
-it('gives the newest alone, and stops what was before it', async () => {
+it('returns only the newest result, and stops the previous task', async () => {
   const newest = new Newest(),
     first = work(),
     second = work(),
@@ -23,7 +23,7 @@ it('gives the newest alone, and stops what was before it', async () => {
   expect(await Promise.all(results)).toEqual([{ kind: 'overtaken' }, { kind: 'overtaken' }, { kind: 'done', value: 'new' }])
 })
 
-it('gives nothing where what was there became something else meanwhile', async () => {
+it('returns nothing if the base state has changed meanwhile', async () => {
   const newest = new Newest(),
     slow = work()
   let project = {}

@@ -1,15 +1,15 @@
-/** What became of something that was begun: another was begun after it, or what it was begun from is no more what is there. */
+/** The outcome of a task: done, failed, superseded by a newer task, or obsolete because its base state has changed. */
 export type Outcome<T> =
   | { readonly kind: 'done'; readonly value: T }
   | { readonly kind: 'failed'; readonly fault: unknown }
   | { readonly kind: 'overtaken' }
   | { readonly kind: 'changed' }
 
-/** Work of which only the newest counts, and that overwrites nothing that was done meanwhile. */
+/** Runs tasks of which only the newest counts, and never overwrites changes made meanwhile. */
 export class Newest {
   private asked?: AbortController
 
-  /** `state` is what the work is to replace, compared by identity when it is done. */
+  /** `state` returns what the task will replace, compared by identity when it is done. */
   async run<T>(work: (signal: AbortSignal) => Promise<T>, state: () => unknown): Promise<Outcome<T>> {
     this.stop()
     const { signal } = (this.asked = new AbortController()),

@@ -29,7 +29,7 @@ const abc = withPlaces(
   ['A', 'B', 'C'].map((gloss) => signPlace(gloss)),
 )
 
-it('inserts, removes, moves and duplicates, and leaves what was there as it was', () => {
+it('inserts, removes, moves and duplicates, and leaves the original unchanged', () => {
   expect(glosses(inserted(abc, 1, signPlace('X'), signPlace('Y')))).toBe('A X Y B C')
   expect(glosses(removed(abc, 0))).toBe('B C')
   expect([moved(abc, 0, 2), moved(abc, 2, 0), moved(abc, 1, 9)].map(glosses)).toEqual(['B C A', 'C A B', 'A C B'])
@@ -41,7 +41,7 @@ it('inserts, removes, moves and duplicates, and leaves what was there as it was'
   expect(glosses(abc)).toBe('A B C')
 })
 
-it('takes pause and junction along with the place that they are before, and says nothing of what waits before the first', () => {
+it('moves pause and join with their place, and ignores those of the first place', () => {
   const joined = withJoin(withPause(abc, 1, 'stop'), 1, { method: 'gap', durationMs: 300 })
   expect(moved(joined, 1, 2).places[2]).toMatchObject({ pause: 'stop', join: { method: 'gap', durationMs: 300 } })
   const first = moved(joined, 1, 0)
@@ -57,7 +57,7 @@ it('takes pause and junction along with the place that they are before, and says
   expect(replaced(joined, 1, signPlace('Z', 4)).places[1]).toMatchObject({ gloss: 'Z', token: 4, pause: 'stop', id: joined.places[1].id })
 })
 
-it('finds where two projects begin to differ', () => {
+it('finds the first difference of two projects', () => {
   expect([
     firstChange(abc, abc),
     firstChange(abc, withToken(abc, 2, 1)),
@@ -71,7 +71,7 @@ it('finds where two projects begin to differ', () => {
   expect([sameProject(abc, again), sameProject(abc, withPause(again, 1, 'comma')), sameProject(abc, { ...again, original: 'r' })]).toEqual([true, false, false])
 })
 
-it('is the body of a call, of which only what is not as it is anyway is said', () => {
+it('is converted to the body of a call, without default values', () => {
   expect(bodyOf(abc)).toEqual({ utterance: 'A B C' })
   const how = withHow(abc, { transition: 'gap', duration: 400, tempo: 1.5, align: 'ground', rate: '30000/1001' })
   expect(bodyOf(withJoin(withJoin(how, 2, { durationMs: 450 }), 1, { method: 'hermite', tempo: 2 }))).toEqual({
@@ -85,7 +85,7 @@ it('is the body of a call, of which only what is not as it is anyway is said', (
   })
 })
 
-it('is made by another method alone, with the tokens pinned', () => {
+it('is converted to another method, with the tokens pinned', () => {
   const project = changed(withJoin(withJoin(abc, 1, { method: 'gap' }), 2, { method: 'sine', durationMs: 200 }), 0, () => piecePlace('r', 1, 2))
   expect(bodyOf(pinned(byMethod(project, 'hermite'), [0, 3, 1]))).toEqual({ utterance: 'r@1..2 B#3 C#1', transition: 'hermite', junctions: ['2=200ms'] })
   expect(bodyOf(pinned(withToken(abc, 1, 7), [1, 2, 3])).utterance).toBe('A#1 B#7 C#3')

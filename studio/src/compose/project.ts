@@ -1,8 +1,8 @@
-/** What stands between a sign and the one before it: nothing, a comma or a full stop. */
+/** The punctuation between a sign and the previous one: nothing, a comma or a full stop. */
 export type Pause = 'none' | 'comma' | 'stop'
 export const kPauses = ['none', 'comma', 'stop'] as const
 
-/** What a junction has of its own; the rest is as the settings for all say. */
+/** A junction's own settings; the defaults apply to the rest. */
 export interface Join {
   readonly method?: string
   readonly durationMs?: number
@@ -10,13 +10,16 @@ export interface Join {
 }
 
 interface Placed {
-  /** Tells places apart while they move; not saved. */
+  /** Identifies a place while it moves; not saved. */
   readonly id: number
-  /** Before this place, as `join` is of the junction before it: both go along when it moves. Of the first place neither says anything, and both wait. */
+  /**
+   * The pause before this place; `join` likewise belongs to the junction before it. Both move with the place. For the first place both are stored but have no
+   * effect.
+   */
   readonly pause: Pause
   readonly join: Join
 }
-/** A gloss; token 0 is whichever fits best, else counted from 1 by recording name, then time. */
+/** A gloss; token 0 means the best match, otherwise tokens are counted from 1 by recording name, then time. */
 export interface SignPlace extends Placed {
   readonly kind: 'sign'
   readonly gloss: string
@@ -32,7 +35,7 @@ export interface PiecePlace extends Placed {
 export type Place = SignPlace | PiecePlace
 
 export const kAligns = ['auto', 'ground', 'none'] as const
-/** How all of it is signed; an empty text leaves it to the server. */
+/** How the whole is signed; an empty text leaves it to the server. */
 export interface How {
   readonly transition: string
   readonly duration: 'fitted' | 'corpus' | number
@@ -42,7 +45,7 @@ export interface How {
   readonly rate: string
 }
 
-/** Something to be signed. Never changed, always made anew, so that every state of it can be kept. */
+/** Something to be signed. Immutable, so that every state of it can be stored. */
 export interface Project {
   readonly places: readonly Place[]
   readonly how: How
@@ -52,13 +55,13 @@ export interface Project {
 
 export const kHow: How = { transition: '', duration: 'fitted', tempo: 1, align: 'auto', rate: '' }
 export const kEmpty: Project = { places: [], how: kHow }
-/** What the server takes, as its description says. */
+/** The range that the server accepts, as its description says. */
 export const kTempo = { least: 0.25, most: 4 } as const
 export const kLongestMs = 60_000
 export const kMostPlaces = 10_000
 
 let ids = 0
-/** A place as it is before anybody says more of it. */
+/** A new place with default settings. */
 export function signPlace(gloss: string, token = 0, pause: Pause = 'none', join: Join = {}): SignPlace {
   return { kind: 'sign', id: ++ids, gloss, token, pause, join }
 }
@@ -79,7 +82,7 @@ export function removed(project: Project, at: number): Project {
     project.places.filter((_, k) => k !== at),
   )
 }
-/** Place `from` so that it comes to stand at `to` of the new order. */
+/** Moves the place at `from` to `to`, an index in the new order. */
 export function moved(project: Project, from: number, to: number): Project {
   const { places } = project
   const rest = places.filter((_, k) => k !== from)
@@ -95,7 +98,7 @@ export function changed(project: Project, at: number, change: (place: Place) => 
     project.places.map((place, k) => (k === at ? change(place) : place)),
   )
 }
-/** Another sign at a place, with the pause and the junction that were there. */
+/** Replaces the sign at a place; the pause and the join are preserved. */
 export function replaced(project: Project, at: number, by: Place): Project {
   return changed(project, at, ({ id, pause, join }) => ({ ...by, id, pause, join }))
 }
@@ -105,7 +108,7 @@ export function withToken(project: Project, at: number, token: number): Project 
 export function withPause(project: Project, at: number, pause: Pause): Project {
   return changed(project, at, (place) => ({ ...place, pause }))
 }
-/** Says something of the junction before a place; undefined leaves it to the settings for all. */
+/** Changes settings of the junction before a place; undefined resets to the default. */
 export function withJoin(project: Project, at: number, change: Join): Project {
   return changed(project, at, (place) => {
     const join = Object.fromEntries(Object.entries({ ...place.join, ...change }).filter(([, value]) => value !== undefined))
@@ -122,7 +125,7 @@ export function isPlain({ method, durationMs, tempo }: Join): boolean {
 export function sameJoin(a: Join, b: Join): boolean {
   return a.method === b.method && a.durationMs === b.durationMs && a.tempo === b.tempo
 }
-/** Whether two places ask for the same thing to be signed. */
+/** Whether two places specify the same sign. */
 export function sameSign(a: Place, b: Place): boolean {
   if (a.kind === 'sign') return b.kind === 'sign' && a.gloss === b.gloss && a.token === b.token
   return b.kind === 'piece' && a.recording === b.recording && a.from === b.from && a.to === b.to
@@ -130,11 +133,11 @@ export function sameSign(a: Place, b: Place): boolean {
 export function sameHow(a: How, b: How): boolean {
   return a.transition === b.transition && a.duration === b.duration && a.tempo === b.tempo && a.align === b.align && a.rate === b.rate
 }
-/** Whether two places are joined alike to what is before them; before the first there is nothing. */
+/** Whether two places are joined alike to their predecessors; always true at the beginning. */
 function sameBefore(a: Place, b: Place, k: number): boolean {
   return k === 0 || (a.pause === b.pause && sameJoin(a.join, b.join))
 }
-/** Whether two projects are the same but for their ids. */
+/** Whether two projects are the same except for their ids. */
 export function sameProject(a: Project, b: Project): boolean {
   return (
     a.original === b.original &&
@@ -143,7 +146,7 @@ export function sameProject(a: Project, b: Project): boolean {
     a.places.every((one, k) => sameSign(one, b.places[k]) && sameBefore(one, b.places[k], k))
   )
 }
-/** The first place that is another one, or stands elsewhere, or is joined otherwise; their number where all are alike. */
+/** Returns the index of the first place that differs in sign, position or join; the number of places if all are equal. */
 export function firstChange(a: Project, b: Project): number {
   if (!sameHow(a.how, b.how)) return 0
   let k = 0

@@ -19,7 +19,7 @@ const kFull: Project = {
   original: 'meteo',
 }
 
-it('comes out of an address as it went in', () => {
+it('is unchanged by writing to and reading from an address', () => {
   const route = parseRoute(addressOf({ page: 'compose', database: 'demo', state: stateOf(kFull) }))
   const { project, wrong } = projectOf('state' in route ? route.state : {})
   expect([sameProject(project, kFull), wrong]).toEqual([true, []])
@@ -27,7 +27,7 @@ it('comes out of an address as it went in', () => {
   expect(projectOf({})).toEqual({ project: kEmpty, wrong: [] })
 })
 
-it('names what in an address cannot be read, and keeps the rest', () => {
+it('names unreadable parts of an address, and keeps the rest', () => {
   const { project, wrong } = projectOf({
     utterance: 'A B',
     duration: '1.5',
@@ -42,13 +42,13 @@ it('names what in an address cannot be read, and keeps the rest', () => {
   expect(projectOf({ utterance: 'A "B' })).toEqual({ project: kEmpty, wrong: ['utterance'], unread: 'A "B' })
 })
 
-it('comes out of a file as it went in', () => {
+it('is unchanged by writing to and reading from a file', () => {
   const { project, database } = readFile(fileOf(kFull, 'demo'))
   expect([sameProject(project, kFull), database]).toEqual([true, 'demo'])
   expect(sameProject(readFile(fileOf(kEmpty, 'demo')).project, kEmpty)).toBe(true)
 })
 
-it('reads the file that the documentation shows', () => {
+it('reads the file in the documentation', () => {
   const { project, database } = readFile(/```json\n([^]*?)```/.exec(doc)![1])
   expect([bodyOf(project), project.original, database]).toEqual([
     { utterance: 'VANNES , MATIN#2 villes@1200..3400', transition: 'hermite', duration: 400, tempo: 1.2, rate: '60', junctions: ['1=gap,450ms,x1.5'] },
@@ -57,7 +57,7 @@ it('reads the file that the documentation shows', () => {
   ])
 })
 
-it('refuses a file that it does not understand whole, and says where', () => {
+it('rejects a file that it does not fully understand, with the position', () => {
   const of = (text: string) => {
     try {
       readFile(text)
@@ -67,7 +67,7 @@ it('refuses a file that it does not understand whole, and says where', () => {
     }
     return 'taken'
   }
-  // eslint-disable-next-line @typescript-eslint/no-explicit-any -- anything may stand in a file
+  // eslint-disable-next-line @typescript-eslint/no-explicit-any -- a file may contain anything
   type SavedFile = Record<string, any>
   const refused = (change: (file: SavedFile) => unknown) => {
     const file = JSON.parse(fileOf(kFull, 'demo')) as SavedFile

@@ -10,13 +10,13 @@ import { textOf } from './utterance'
 
 const answer = (name: string, begin_ms: number, tier = 'Gloss', recording = 'r') => ({ name, begin_ms, end_ms: begin_ms + 400, tier, recording })
 
-it('takes the sign tier with the most signs, of equal ones the first by name', () => {
+it('takes the sign tier with the most signs, on equal numbers the first by name', () => {
   expect(mainSigns([answer('A', 0, 'L'), answer('C', 900), answer('B', 500)]).map(({ name }) => name)).toEqual(['B', 'C'])
   expect(mainSigns([answer('A', 0, 'R'), answer('B', 0, 'L')]).map(({ name }) => name)).toEqual(['B'])
   expect(mainSigns([])).toEqual([])
 })
 
-it('makes a recording’s signs the places, each its own token; what no token is, is a piece', async () => {
+it('converts a recording’s signs to places with their own tokens, or to pieces if they have none', async () => {
   const row = (token: number, recording: string, begin: number): CandidateRow => ({
     token,
     recording,
@@ -41,7 +41,7 @@ it('makes a recording’s signs the places, each its own token; what no token is
   expect(asked).toEqual(['A B X', 'A', 'B X', 'B', 'X'])
 })
 
-it('plays the paper’s scenarios where their signs are', () => {
+it('applies the paper’s scenarios if their signs exist', () => {
   const meteo = ['BONJOUR', 'BRETAGNE', 'MATIN', 'NUAGES', 'PLUIE', 'DEMAIN', 'VENDREDI', 'NUAGES', 'MATIN', 'BROUILLARD']
   const recording = {
     ...withPlaces(

@@ -4,12 +4,12 @@ import { ApiError } from '../api/fault'
 import { kEmpty, piecePlace, signPlace, type Place, type Project } from './project'
 import { canBeTyped, quoted } from './utterance'
 
-/** From so much rest on between two signs the server keeps no recorded transition; then there is a full stop. */
+/** If two signs are separated by at least this much rest, the server keeps no recorded transition; a full stop is put between them. */
 const kRestMs = 1000
-/** Glosses that are asked about at once. */
+/** The number of glosses per request. */
 const kAtOnce = 60
 
-/** The signs of a recording as edits count them: of several sign tiers that with the most signs, of equal ones the first by name. */
+/** Returns the signs of a recording as edits count them: of several sign tiers the one with the most signs, on equal numbers the first by name. */
 export function mainSigns(signs: readonly SignAnswer[]): readonly SignAnswer[] {
   const tiers = new Map<string, SignAnswer[]>()
   for (const sign of signs) {
@@ -20,7 +20,7 @@ export function mainSigns(signs: readonly SignAnswer[]): readonly SignAnswer[] {
   return names.length > 0 ? tiers.get(names[0])!.toSorted((a, b) => a.begin_ms - b.begin_ms) : []
 }
 
-/** A recording's signs as the places of a project, each with its own token; what is no token of its gloss is a piece. */
+/** Converts a recording's signs to the places of a project, each with its own token; a sign that is no token of its gloss becomes a piece. */
 export async function projectFrom(api: Api, database: string, recording: string, signal?: AbortSignal): Promise<Project> {
   const [info, answers] = await Promise.all([api.recording(database, recording), api.signs(database, recording)])
   const signs = mainSigns(answers)
@@ -38,14 +38,14 @@ export async function projectFrom(api: Api, database: string, recording: string,
   return { ...kEmpty, original: recording, places }
 }
 
-/** The place of a sign: the token whose frames its middle lies in. */
+/** Returns the place of a sign: the token whose frames contain its middle. */
 export function placeOf({ name, recording, begin_ms, end_ms }: SignAnswer, rows: readonly CandidateRow[], frameAt: (ms: number) => number): Place {
   const middle = frameAt((begin_ms + end_ms) / 2)
   const own = rows.find((row) => row.recording === recording && row.frames.begin <= middle && middle < row.frames.end)
   return own ? signPlace(name, own.token) : piecePlace(recording, Math.max(0, begin_ms), end_ms)
 }
 
-/** What the tokens of glosses are. One that cannot be signed spoils a call, so that those beside it are asked about again without it. */
+/** Returns the tokens of the given glosses. A gloss that cannot be signed fails the whole call, so the others are requested again without it. */
 async function candidates(api: Api, database: string, glosses: readonly string[], signal?: AbortSignal): Promise<[string, readonly CandidateRow[]][]> {
   if (glosses.length === 0) return []
   try {

@@ -3,7 +3,7 @@ import { isDuration, isMethod, isTempo, joinTexts, readJoin } from './joins'
 import { kAligns, kEmpty, kHow, withJoin, withPlaces, type How, type Project } from './project'
 import { placesOf, textOf } from './utterance'
 
-/** A project as the address holds it: only what is not as it is anyway. */
+/** Returns a project's state in the address: only what differs from the defaults. */
 export function stateOf({ places, how, original }: Project): Record<string, string> {
   const state: Record<string, string> = {}
   if (places.length > 0) state.utterance = textOf(places)
@@ -18,21 +18,21 @@ export function stateOf({ places, how, original }: Project): Record<string, stri
   return state
 }
 
-/** A link to a project for somebody else: without what else the page's address holds, such as the token that lets its user in. */
+/** Returns a link for sharing a project: without other content of the page's address, such as the user's access token. */
 export function linkTo(project: Project, database: string, page: string): string {
   const link = new URL(addressOf({ page: 'compose', database, state: stateOf(project) }), page)
   link.search = ''
   return link.href
 }
 
-/** What an address says, and the names of what in it could not be read. `unread` is a text whose signs could not be. */
+/** The content of an address, and the names of unreadable parameters. `unread` is a text that could not be read as signs. */
 export interface Read {
   readonly project: Project
   readonly wrong: readonly string[]
   readonly unread?: string
 }
 
-/** The project that an address holds. What cannot be read is left out, and named. */
+/** Returns the project in an address. Unreadable parts are left out and named. */
 export function projectOf(state: WorkState): Read {
   const wrong: string[] = []
   const read = <T>(name: string, from: (text: string) => T | undefined): T | undefined => {

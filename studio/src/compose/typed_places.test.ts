@@ -8,7 +8,7 @@ const glosses = glossesOf([
   { gloss: 'A#3', tokens: 1 },
 ])
 
-it('reads a box for one gloss, with quotes and without', () => {
+it('reads a box for one gloss, with and without quotes', () => {
   expect([' LE MANS ', '"LE MANS"', 'A#3', 'MATIN#2', 'A , B', 'r@1..20'].map((text) => textOf(typedPlaces(text, glosses)))).toEqual([
     '"LE MANS"',
     '"LE MANS"',

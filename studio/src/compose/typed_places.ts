@@ -2,7 +2,10 @@ import { tokensOf, type Glosses } from './complete'
 import { signPlace, type Place } from './project'
 import { canBeTyped, placesOf, UtteranceFault } from './utterance'
 
-/** The places of a text in a box for one gloss: a gloss as it stands, blanks and all, else what an utterance says. Throws UtteranceFault. */
+/**
+ * Returns the places of a text in a box for one gloss: the whole text as a gloss, spaces included, if it is known, otherwise the places of an utterance. Throws
+ * UtteranceFault.
+ */
 export function typedPlaces(text: string, glosses: Glosses): readonly Place[] {
   const whole = text.trim()
   if (canBeTyped(whole) && tokensOf(glosses, whole) !== undefined) return [signPlace(whole)]

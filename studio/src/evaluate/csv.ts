@@ -1,6 +1,6 @@
 /**
- * A table as RFC 4180 has it: fields that need it in quotes, lines ended by CR LF. Numbers are written as JSON writes them.
- * A text that a spreadsheet would take for a formula has an apostrophe before it, for people write into codes and comments what they like.
+ * Writes a table per RFC 4180: fields are quoted if necessary, lines end with CR LF. Numbers are written as in JSON. A text that a spreadsheet would interpret
+ * as a formula gets a leading apostrophe, because codes and comments are free text.
  */
 export function csvOf(rows: readonly (readonly (string | number | null | undefined)[])[]): string {
   return rows.map((row) => row.map(fieldOf).join(',') + '\r\n').join('')

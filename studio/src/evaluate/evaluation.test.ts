@@ -39,13 +39,13 @@ const [task] = evaluation.tasks
 const measure = (name: string) => kMeasures.find((one) => one.measure === name)!
 
 describe('an evaluation', () => {
-  it('is read from what was written, and nothing else is', () => {
+  it('is read from what was written, and anything else is rejected', () => {
     expect(readEvaluation(JSON.stringify(evaluation))).toEqual(evaluation)
     for (const wrong of ['', 'null', '{}', '[]', '{"tasks":[],"spans":[]}', '{"tasks":[{"task":"given","groups":[{}]}],"spans":[],"recordings":1}']) {
       expect(() => readEvaluation(wrong), wrong).toThrow('noEvaluation')
     }
   })
-  it('is refused where what would be drawn is not there', () => {
+  it('is rejected if required data is missing', () => {
     const group = evaluation.tasks[0].groups[0]
     const tasks = (...groups: unknown[]) => ({ tasks: [{ task: 'given', groups }] })
     const odd: Record<string, unknown> = {
@@ -68,16 +68,16 @@ describe('an evaluation', () => {
     }
     for (const [what, more] of Object.entries(odd))
       expect(() => readEvaluation(JSON.stringify({ ...evaluation, ...(more as object) })), what).toThrow('noEvaluation')
-    // A task that found nothing may stand beside one that did.
+    // A task without results may stand next to one with results.
     expect(readEvaluation(JSON.stringify({ ...evaluation, tasks: [...evaluation.tasks, { task: 'replaced', groups: [] }] })).tasks).toHaveLength(2)
   })
-  it("has figures by method and measure, or over another method's", () => {
+  it('has figures by method and measure, or relative to another method', () => {
     expect(figureOf(scores, 'learned', 'wrist')?.value).toBe(9)
     expect(figureOf(scores, 'learned', 'wrist/slerp')?.value).toBe(0.45)
     expect(figureOf(scores, 'hermite', 'peak_speed_ratio')).toBeUndefined()
     expect(figureOf(undefined, 'hermite', 'wrist')).toBeUndefined()
   })
-  it('tells gaps of one length, and parts of groups', () => {
+  it('recognizes gaps of one length, and parts of groups', () => {
     expect(gapOf('170 ms')).toBe(170)
     expect(gapOf('natural')).toBeUndefined()
     expect(wholeGroups(task).map(({ group }) => group)).toEqual(['170 ms', 'natural'])
@@ -88,19 +88,19 @@ describe('an evaluation', () => {
       ['a', 1],
     ])
   })
-  it('tells how durations were met once for all methods', () => {
+  it('reports the duration error once for all methods', () => {
     expect(countsOf(task, kDurations)[0].durations[0]?.value).toBe(110)
     expect(measuresOf(task).map((one) => one.measure)).toEqual(['wrist/slerp', 'wrist', 'peak_speed_ratio'])
   })
 })
 
 describe('the best figure', () => {
-  it('is the lowest, or the nearest to one as a ratio or to nought', () => {
+  it('is the lowest, or the nearest to one as a ratio or to zero', () => {
     expect(farness(0.5, 'one')).toBeCloseTo(farness(2, 'one'))
     expect(farness(-0.2, 'zero')).toBe(0.2)
     expect([...tableByMeasure(task.groups[0], 'moving', [measure('peak_speed_ratio')]).best[0]]).toEqual(['learned'])
   })
-  it("is never a bound's, which knows the answer, and is not told where all are alike", () => {
+  it("is never a bound's, which knows the answer, and is undefined if all are equal", () => {
     expect([...tableByGroup(wholeGroups(task), 'moving', measure('wrist')).best[0]]).toEqual(['learned'])
     expect(
       bestOf(
@@ -127,14 +127,14 @@ describe('the best figure', () => {
 })
 
 describe('a table', () => {
-  it('has the methods in their order, and is sorted with those last that have no figure', () => {
+  it('has the methods in their order, and sorts those without a figure last', () => {
     const table = tableByGroup(wholeGroups(task), 'moving', measure('wrist'))
     expect(table.rows.map(({ method }) => method)).toEqual(['learned', 'hermite', 'slerp', 'ceiling'])
     expect(sorted(table, { column: 1, down: false }).map(({ method }) => method)).toEqual(['slerp', 'learned', 'hermite', 'ceiling'])
     expect(sorted(table, { column: 1, down: true }).map(({ method }) => method)).toEqual(['learned', 'slerp', 'hermite', 'ceiling'])
     expect(inOrder(['zzz', 'hold', 'learned'])).toEqual(['learned', 'hold', 'zzz'])
   })
-  it('goes into a file with intervals and counts', () => {
+  it('is written to a file with intervals and counts', () => {
     const table = tableByGroup(wholeGroups(task).slice(0, 1), 'moving', measure('wrist'))
     expect(csvOf(csvRows(table, table.rows.slice(0, 1), { task: 'given' }))).toBe(
       'task,method,170 ms (mm),170 ms (mm) low,170 ms (mm) high,170 ms (mm) spans\r\ngiven,learned,9,8,10,5\r\n',
@@ -143,10 +143,10 @@ describe('a table', () => {
 })
 
 describe('CSV', () => {
-  it('quotes what RFC 4180 has quoted', () => {
+  it('quotes fields as in RFC 4180', () => {
     expect(csvOf([['a,b', 'say "no"', 'two\nlines', null, undefined, 1.5, 'plain é']])).toBe('"a,b","say ""no""","two\nlines",,,1.5,plain é\r\n')
   })
-  it('lets no text be a formula, and leaves numbers alone', () => {
+  it('prevents text from being interpreted as a formula, and leaves numbers unchanged', () => {
     expect(csvOf([['=P"1,x', '+1', '-1', '@a', '\tb', '\rc', "it's", 'a=b', -1.5, +2, '']])).toBe(`"'=P""1,x",'+1,'-1,'@a,'\tb,"'\rc",it's,a=b,-1.5,2,\r\n`)
   })
 })

@@ -1,11 +1,11 @@
 import { PageFault } from './fault'
 
-/** One figure, pooled over spans, with its interval; null where there is none, as of the interval of one recording alone. */
+/** One figure, pooled over spans, with its interval; null if there is none, such as the interval for a single recording. */
 export interface Estimate {
   readonly value: number | null
   readonly low: number | null
   readonly high: number | null
-  /** What it is from. */
+  /** The sample size. */
   readonly spans: number
   readonly recordings: number
   readonly unit?: string
@@ -14,10 +14,10 @@ export interface Estimate {
 }
 export const kHands = ['moving', 'left', 'right'] as const
 export type Hand = (typeof kHands)[number]
-/** Figures by method and the measure's name. */
+/** Figures by method and measure name. */
 export type Scores = Readonly<Record<string, Readonly<Record<string, Estimate>>>>
 export interface Group {
-  /** `annotated`, `170 ms`, …; those behind a comma are a part of the one before it. */
+  /** `annotated`, `170 ms`, …; a group with a comma is a part of the one named before the comma. */
   readonly group: string
   readonly spans: number
   readonly recordings: number
@@ -33,23 +33,23 @@ export interface MeasuredSpan {
   readonly frames: number
   readonly group: string
 }
-/** How near a method comes to the captures beside another: the wrist's error over the other's, where 1 is as near. */
+/** How close a method comes to the captures relative to another: the ratio of their wrist errors, where 1 means equally close. */
 export interface Judgement {
   readonly method: string
   readonly over: string
   readonly all: Estimate
   readonly collections: readonly (Estimate & { readonly collection: string })[]
-  /** Worse in no collection by more than its interval, and better over all. */
+  /** Worse in no collection by more than its interval, and better overall. */
   readonly may_be_default: boolean
 }
-/** What `signweave evaluate --json` prints, and what the job answers, which has the last three as well. */
+/** The output of `signweave evaluate --json`, and the answer of the job, which also has the last three fields. */
 export interface Evaluation {
   readonly recordings: number
   readonly recordings_left_out: number
   readonly spans_left_out: number
   readonly seed: number
   readonly confidence: number
-  /** Not in files of older versions. */
+  /** Missing in files of older versions. */
   readonly judged?: readonly Judgement[]
   readonly tasks: readonly Task[]
   readonly spans: readonly MeasuredSpan[]
@@ -58,7 +58,7 @@ export interface Evaluation {
   readonly notices?: readonly { readonly where: string; readonly text: string }[]
 }
 
-/** Reads what the command line or this page wrote. Throws where it is something else. */
+/** Reads output of the command line or of this page. Throws if the text is anything else. */
 export function readEvaluation(text: string): Evaluation {
   let read: unknown
   try {
@@ -77,10 +77,10 @@ const isText = (value: unknown): value is string => typeof value === 'string'
 const missing = (value: unknown) => value === undefined || value === null
 const every = (of: unknown, is: (value: unknown) => boolean) => isObject(of) && Object.values(of).every(is)
 const list = (of: unknown, is: (value: unknown) => boolean): of is readonly Fields[] => Array.isArray(of) && of.every(is)
-/** Names that are keys of what is drawn: each there once. */
+/** Names used as keys in drawings must be unique. */
 const areUnique = (names: readonly unknown[]) => names.every(isText) && new Set(names).size === names.length
 
-/** Everything that the page looks at: what is not there as it should be would break it while it is drawn. */
+/** Checks every field that the page uses: an invalid one would break the page during drawing. */
 function isEvaluation(read: unknown): boolean {
   return (
     isObject(read) &&
@@ -117,7 +117,7 @@ function isEstimate(figure: unknown): boolean {
   )
 }
 
-/** The figure of a column: `wrist`, or of what it is over, `wrist/slerp`. None where it was not measured. */
+/** Returns the figure of a column: `wrist`, or relative to another method, `wrist/slerp`. Undefined if it was not measured. */
 export function figureOf(scores: Scores | undefined, method: string, measure: string): Estimate | undefined {
   const [name, over] = measure.split('/')
   const found = scores?.[method]?.[name]
@@ -125,18 +125,18 @@ export function figureOf(scores: Scores | undefined, method: string, measure: st
   return typeof figure?.value === 'number' ? figure : undefined
 }
 
-/** Groups that are no part of another. */
+/** Returns the groups that are not part of another. */
 export function wholeGroups(task: Task): readonly Group[] {
   return task.groups.filter(({ group }) => !group.includes(', '))
 }
 
-/** The length of the gaps of a group in ms, where all are as long. */
+/** Returns the gap length of a group in ms, if all its gaps have the same length. */
 export function gapOf(group: string): number | undefined {
   const found = /^(\d+) ms$/.exec(group)
   return found ? Number(found[1]) : undefined
 }
 
-/** How many spans of each recording there are, the most first. */
+/** Returns the number of spans of each recording, in descending order. */
 export function spansByRecording(
   spans: readonly MeasuredSpan[],
 ): readonly { readonly recording: string; readonly spans: number; readonly groups: ReadonlyMap<string, number> }[] {

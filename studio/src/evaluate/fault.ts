@@ -1,4 +1,4 @@
-/** What is no fault of the server: told in the words of this folder's pages, by its key. */
+/** A fault detected by these pages rather than by the server, named by the key of its message. */
 export class PageFault extends Error {
   constructor(readonly kind: 'noEvaluation' | 'noStudy' | 'noSpans' | 'noStorage' | 'otherStudy') {
     super(kind)

@@ -17,8 +17,8 @@ const some = [
   judged('hermite', estimate(0.95, 0.9, 0.99), false, ['a', estimate(0.5, 0.4, 0.6)], ['b', estimate(1.4, 1.2, 1.6)]),
 ]
 
-describe('methods that are judged', () => {
-  it('have a column for each collection and one for all, and say who may be the default and why not', () => {
+describe('judged methods', () => {
+  it('have a column for each collection and one overall, and say which may be the default and why not', () => {
     const table = judgedTable(some)!
     expect(table.collections).toEqual(['a', 'b'])
     expect(table.over).toBe('kriging')
@@ -33,12 +33,12 @@ describe('methods that are judged', () => {
       [1.3, undefined, 1.2],
     ])
   })
-  it('have no column for a collection that is alone', () => {
+  it('have no column for a single collection', () => {
     const table = judgedTable([judged('sine', estimate(1.2, 1.1, 1.5), false, ['', estimate(1.2, 1.1, 1.5)])])!
     expect(table.collections).toEqual([])
     expect(table.rows).toEqual([{ method: 'sine', cells: [expect.objectContaining({ value: 1.2 })], verdict: 'worse' }])
   })
-  it('are no table where there are none, as of an older file', () => {
+  it('give no table if there are none, as in an older file', () => {
     expect(judgedTable(undefined)).toBeUndefined()
     expect(judgedTable([])).toBeUndefined()
   })
@@ -47,7 +47,7 @@ describe('methods that are judged', () => {
     expect(head.slice(0, 6)).toEqual(['method', 'over', 'a', 'a low', 'a high', 'a spans'])
     expect(first).toEqual(['learned', 'kriging', 0.8, 0.7, 0.9, 5, 1.01, 0.99, 1.03, 5, 0.9, 0.85, 0.95, 5, 'yes'])
   })
-  it('are read from a file, which is refused where they are something else', () => {
+  it('are read from a file, which is rejected if they are invalid', () => {
     const evaluation = { recordings: 1, tasks: [{ task: 'given', groups: [{ group: 'natural', spans: 1, recordings: 1, hands: {} }] }], spans: [] }
     expect(readEvaluation(JSON.stringify({ ...evaluation, judged: some })).judged).toEqual(some)
     for (const wrong of [

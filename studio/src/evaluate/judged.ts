@@ -1,22 +1,22 @@
 import type { Estimate, Judgement } from './evaluation'
 import { inOrder } from './methods'
 
-/** Whether a method may be the default, or why not: worse in a collection by more than its interval, or not better over all. */
+/** Whether a method may be the default, or why not: worse in a collection by more than its interval, or not better overall. */
 export type Verdict = 'yes' | 'worse' | 'notBetter'
 export interface JudgedRow {
   readonly method: string
-  /** By collection, then over all. */ readonly cells: readonly (Estimate | undefined)[]
+  /** By collection, then overall. */ readonly cells: readonly (Estimate | undefined)[]
   readonly verdict: Verdict
 }
 export interface JudgedTable {
-  /** What the others are held against: kriging. */ readonly over: string
-  /** None where there is one alone: over all says the same. */ readonly collections: readonly string[]
+  /** The method of reference: kriging. */ readonly over: string
+  /** Undefined if there is only one: the overall figure says the same. */ readonly collections: readonly string[]
   readonly rows: readonly JudgedRow[]
 }
 
 const known = (estimate: Estimate | undefined) => (typeof estimate?.value === 'number' ? estimate : undefined)
 
-/** Wrist errors over another method's by collection; undefined where nothing was judged. */
+/** Returns wrist errors relative to another method's by collection; undefined if nothing was judged. */
 export function judgedTable(judged: readonly Judgement[] | undefined): JudgedTable | undefined {
   if (!judged || judged.length === 0) return undefined
   const all = [...new Set(judged.flatMap(({ collections }) => collections.map(({ collection }) => collection)))]
@@ -33,7 +33,7 @@ export function judgedTable(judged: readonly Judgement[] | undefined): JudgedTab
   return { over: judged[0].over, collections, rows }
 }
 
-/** For `csvOf`: a row a method; of each collection the figure, its interval and the spans that it is from. */
+/** Returns the rows for `csvOf`, one per method; for each collection the figure, its interval and its number of spans. */
 export function judgedCsv({ over, collections, rows }: JudgedTable): readonly (readonly (string | number | null | undefined)[])[] {
   const columns = [...collections, 'all'].flatMap((name) => [name, `${name} low`, `${name} high`, `${name} spans`])
   return [

@@ -1,8 +1,8 @@
 import type { Estimate, Scores, Task } from './evaluation'
 
-/** Which figure is the best: the lowest, the one nearest to 1 (as a ratio) or to 0; none says nothing of the method. */
+/** Which figure is best: the lowest, the one nearest to 1 (as a ratio) or to 0; undefined if it does not rate the method. */
 export type Better = 'low' | 'one' | 'zero'
-/** `measure` is as `figureOf` takes it. */
+/** `measure` has the format of `figureOf`. */
 export interface Measure {
   readonly measure: string
   readonly digits: number
@@ -10,7 +10,7 @@ export interface Measure {
   readonly unit?: 'mm' | 'ms' | '°' | 'µs'
 }
 
-/** In the order of docs/evaluation.md, the wrist over slerp's first, which is what to look at first. */
+/** In the order of docs/evaluation.md, starting with the wrist error over slerp's, the most important one. */
 export const kMeasures: readonly Measure[] = [
   { measure: 'wrist/slerp', digits: 3, better: 'low' },
   { measure: 'wrist', digits: 1, better: 'low', unit: 'mm' },
@@ -35,13 +35,13 @@ export const kMeasures: readonly Measure[] = [
   { measure: 'captured_frames_changed', digits: 2, better: 'low' },
   { measure: 'microseconds', digits: 1, better: 'low', unit: 'µs' },
 ]
-/** Told before any method comes in, so the same for all of them. */
+/** Measured before any method is applied, so the same for all of them. */
 export const kDurations: readonly Measure[] = [
   { measure: 'duration_error', digits: 1, better: 'low', unit: 'ms' },
   { measure: 'duration_error_of_mean', digits: 1, better: 'low', unit: 'ms' },
 ]
 
-/** The measures that a task has figures of. */
+/** Returns the measures for which a task has figures. */
 export function measuresOf(task: Task): readonly Measure[] {
   const there = new Set<string>()
   for (const { hands } of task.groups) {
@@ -58,12 +58,12 @@ export function measuresOf(task: Task): readonly Measure[] {
   return kMeasures.filter(({ measure }) => there.has(measure))
 }
 
-/** How far a figure is from the best that there could be; the least is the best. */
+/** Returns the distance of a figure from the optimum; the smallest is best. */
 export function farness(value: number, better: Better): number {
   return better === 'low' ? value : better === 'zero' ? Math.abs(value) : value > 0 ? Math.abs(Math.log(value)) : Infinity
 }
 
-/** The methods whose figure is the best, bounds left out; none where all are alike. */
+/** Returns the methods with the best figure, without bounds; none if all are equal. */
 export function bestOf(
   figures: readonly (readonly [method: string, figure: Estimate | undefined])[],
   better: Better,
@@ -77,8 +77,8 @@ export function bestOf(
   return new Set(best.length < there.length ? best.map(({ method }) => method) : [])
 }
 
-/** What a column is called in a file. */
+/** Returns the name of a column in a file. */
 export const columnName = (measure: string) => measure.replace('/', ' over ')
 
-/** Every method of some scores. */
+/** Returns all methods in some scores. */
 export const methodsIn = (scores: Scores | undefined) => Object.keys(scores ?? {})

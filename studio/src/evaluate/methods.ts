@@ -1,4 +1,4 @@
-/** What a method is there for: to sign with, to be held against, or as a bound that nothing which signs can use. */
+/** The purpose of a method: signing, comparison, or a bound based on data that is not available when signing. */
 export type MethodKind = 'signing' | 'yardstick' | 'bound'
 export interface Method {
   readonly method: string
@@ -25,14 +25,14 @@ export const kMethods: readonly Method[] = [
 ]
 const order = new Map(kMethods.map(({ method }, i) => [method, i]))
 
-/** What can be asked for; slerp, which others are told over, and the bounds are always there. */
+/** The methods that can be selected; slerp, the reference, and the bounds are always included. */
 export const kChoice = kMethods.filter(({ kind }) => kind !== 'bound').map(({ method }) => method)
-/** What can make captured frames anew. */
-export const kRemaking = kMethods.filter(({ kind }) => kind === 'signing').map(({ method }) => method)
+/** The methods that can regenerate captured frames. */
+export const kRegenerating = kMethods.filter(({ kind }) => kind === 'signing').map(({ method }) => method)
 
 export const isBound = (method: string) => kMethods.some((one) => one.method === method && one.kind === 'bound')
 
-/** The known ones in their order, then all others. */
+/** Sorts methods: the known ones in their order, then all others. */
 export function inOrder(methods: readonly string[]): readonly string[] {
   return methods.toSorted((a, b) => (order.get(a) ?? 99) - (order.get(b) ?? 99) || a.localeCompare(b))
 }

@@ -1,6 +1,6 @@
 /**
- * A drawing of this page as a file of its own: the page's colours stand in it as they are now, on their ground. What it draws must
- * have its colours in attributes as `var(--name)`.
+ * Returns a drawing of this page as a standalone file with the page's current colours and background. The drawing must have its colours in attributes as
+ * `var(--name)`.
  */
 export function standAlone(svg: SVGSVGElement): string {
   const style = getComputedStyle(document.documentElement)

@@ -2,18 +2,18 @@ import type { Api } from '../api/client'
 import { ApiError } from '../api/fault'
 import type { Evaluation } from './evaluation'
 
-/** What the form asks for. */
-export interface Wishes {
+/** The options chosen in the form. */
+export interface EvaluationOptions {
   readonly method: readonly string[]
   readonly seed: number
 }
-/** An evaluation that is shown, and the file that it was opened from. */
+/** An evaluation on screen, and the file from which it was opened. */
 export interface Shown {
   readonly evaluation: Evaluation
   readonly file?: string
 }
 
-/** The evaluation of a database: goes on while other pages are looked at. */
+/** The evaluation of a database: continues while other pages are open. */
 export class Running {
   state = $state<'idle' | 'waiting' | 'running'>('idle')
   /** 0 to 1. */
@@ -22,9 +22,9 @@ export class Running {
   cancelled = $state(false)
   shown = $state.raw<Shown | undefined>()
   private job = ''
-  /** It is to be cancelled as soon as the server says which job it is, or can be reached again. */
+  /** Cancellation is pending until the server returns the job's id, or is reachable again. */
   private unwanted = false
-  /** Ends the wait for a server that could not be reached. */
+  /** Ends the wait for an unreachable server. */
   private wake?: () => void
 
   constructor(
@@ -35,7 +35,7 @@ export class Running {
     if (job) void this.follow(job, true)
   }
 
-  async start(wishes: Wishes): Promise<void> {
+  async start(options: EvaluationOptions): Promise<void> {
     if (this.state !== 'idle') return
     this.fault = undefined
     this.cancelled = false
@@ -43,7 +43,7 @@ export class Running {
     this.unwanted = false
     this.state = 'waiting'
     try {
-      const { job } = await this.api.evaluate(this.database, wishes)
+      const { job } = await this.api.evaluate(this.database, options)
       remember(this.database, job)
       this.job = job
       if (this.unwanted) await this.cancel()
@@ -65,7 +65,7 @@ export class Running {
     }
   }
 
-  /** Whether the server cannot be asked how far the job is. It is asked again by itself, and at once by `retry`. */
+  /** Whether the server cannot be reached to query the job. Queries are repeated automatically, and at once by `retry`. */
   get lost(): boolean {
     return this.state !== 'idle' && this.fault !== undefined
   }
@@ -82,7 +82,7 @@ export class Running {
     this.shown = shown
   }
 
-  /** `again` where the page was left: the server may have forgotten the job. */
+  /** `again` after the page was left: the server may have forgotten the job. */
   private async follow(job: string, again = false): Promise<void> {
     this.job = job
     this.state = 'waiting'
@@ -103,7 +103,7 @@ export class Running {
         this.end()
         this.open({ evaluation })
       } catch (fault) {
-        // Of what the server did not say the job knows nothing: it goes on.
+        // An error that did not come from the server does not affect the job, which continues.
         const over = fault instanceof ApiError && (fault.status < 502 || fault.status > 504)
         if (!over) {
           this.fault = fault
@@ -132,12 +132,12 @@ export class Running {
   }
 }
 
-/** Ms to the next question where the server could not be reached, and at most. */
+/** Initial and maximum ms between queries of an unreachable server. */
 const kFirstWait = 1000
 const kLongestWait = 8000
 
 const running = new Map<string, Running>()
-/** That of a database, the same as long as the page is open. */
+/** Returns the evaluation of a database, the same one as long as the page is open. */
 export function runningOf(api: Api, database: string): Running {
   let one = running.get(database)
   if (!one) running.set(database, (one = new Running(api, database)))
@@ -156,6 +156,6 @@ function remember(database: string, job: string): void {
   try {
     sessionStorage.setItem(keyOf(database), job)
   } catch {
-    // a page that may store nothing forgets it when it is closed
+    // if storage is forbidden, it is forgotten when the page is closed
   }
 }

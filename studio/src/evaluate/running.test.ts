@@ -6,17 +6,17 @@ import type { Evaluation } from './evaluation'
 import { Running } from './running.svelte'
 
 const evaluation = { recordings: 1 } as Evaluation
-type Told = (state: JobState<Evaluation>) => void
+type OnState = (state: JobState<Evaluation>) => void
 const stored = new Map<string, string>()
 
-/** A server whose answers are given one after the other; `result` ends as the test says. */
+/** A server whose answers are given one after the other; `result` ends when the test says so. */
 function server() {
   const cancelled: string[] = [],
-    waits: { told: Told; resolve: (one: Evaluation) => void; reject: (fault: unknown) => void }[] = []
+    waits: { onstate: OnState; resolve: (one: Evaluation) => void; reject: (fault: unknown) => void }[] = []
   let begin: (job: { job: string }) => void = () => {}
   const api = {
     evaluate: () => new Promise((resolve) => (begin = resolve)),
-    result: (_: unknown, told: Told) => new Promise((resolve, reject) => waits.push({ told, resolve, reject })),
+    result: (_: unknown, onstate: OnState) => new Promise((resolve, reject) => waits.push({ onstate, resolve, reject })),
     cancel: async (job: string) => {
       cancelled.push(job)
     },
@@ -38,8 +38,8 @@ beforeEach(() => {
   }
 })
 
-describe('an evaluation that goes on', () => {
-  it('is cancelled also before the server has said which job it is', async () => {
+describe('a running evaluation', () => {
+  it("can be cancelled before the server has returned the job's id", async () => {
     const { api, cancelled, waits, answer } = server(),
       running = new Running(api, 'demo')
     void running.start({ method: [], seed: 1 })
@@ -51,19 +51,19 @@ describe('an evaluation that goes on', () => {
     waits[0].reject(new ApiError('cancelled', 500, 'cancelled'))
     await settle()
     expect([running.state, running.cancelled, running.fault]).toEqual(['idle', true, undefined])
-    // The next one is not.
+    // The next job is not cancelled.
     void running.start({ method: [], seed: 1 })
     answer()
     await settle()
     expect(cancelled).toEqual(['7'])
   })
-  it('is followed on where the server cannot be reached for a while, by itself and when asked to', async () => {
+  it('is followed while the server is unreachable, automatically and on request', async () => {
     const { api, waits, answer } = server(),
       running = new Running(api, 'demo')
     void running.start({ method: [], seed: 1 })
     answer()
     await settle()
-    waits[0].told(state(0.4))
+    waits[0].onstate(state(0.4))
     waits[0].reject(new StudioFault('unreachable'))
     await settle()
     expect([running.state, running.fraction, running.lost]).toEqual(['running', 0.4, true])
@@ -74,7 +74,7 @@ describe('an evaluation that goes on', () => {
     running.retry()
     await settle()
     expect(waits).toHaveLength(3)
-    waits[2].told(state(0.9))
+    waits[2].onstate(state(0.9))
     expect([running.fault, running.lost, running.fraction]).toEqual([undefined, false, 0.9])
     waits[2].resolve(evaluation)
     await settle()
@@ -82,7 +82,7 @@ describe('an evaluation that goes on', () => {
     await vi.advanceTimersByTimeAsync(60_000)
     expect(waits).toHaveLength(3)
   })
-  it('is cancelled once the server is there again', async () => {
+  it('is cancelled once the server is reachable again', async () => {
     const { api, cancelled, waits, answer } = server(),
       running = new Running(api, 'demo')
     void running.start({ method: [], seed: 1 })
@@ -96,12 +96,12 @@ describe('an evaluation that goes on', () => {
     api.cancel = async (job) => {
       cancelled.push(job)
     }
-    waits[0].told(state(0.5))
-    waits[0].told(state(0.6))
+    waits[0].onstate(state(0.5))
+    waits[0].onstate(state(0.6))
     await settle()
     expect(cancelled).toEqual(['7'])
   })
-  it('ends where the server says so, and nothing is said of one that it has forgotten since', async () => {
+  it('ends if the server says so, and silently if the server has forgotten it', async () => {
     stored.set('signweave.evaluation.demo', '3')
     const { api, waits, answer } = server(),
       running = new Running(api, 'demo')

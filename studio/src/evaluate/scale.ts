@@ -1,11 +1,11 @@
-/** From values to places on a line, in pixels. */
+/** Maps values to positions on a line, in pixels. */
 export interface Scale {
   readonly at: (value: number) => number
   readonly ticks: readonly number[]
   readonly digits: number
 }
 
-/** Over some values, from 0 where they are near it; `log` where all are above 0. */
+/** Returns a scale over some values, starting from 0 if they are close to it; `log` if all are above 0. */
 export function scaleOf(values: readonly number[], length: number, log: boolean, count = 5): Scale {
   const finite = values.filter(Number.isFinite)
   const low = Math.min(...finite),
@@ -44,7 +44,7 @@ function logarithmic(low: number, high: number, length: number): Scale {
   }
 }
 
-/** A step of 1, 2 or 5 times a power of ten that goes about `count` times into a range. */
+/** Returns 1, 2 or 5 times a power of ten, which fits about `count` times into a range. */
 function stepOf(range: number, count: number): number {
   const rough = range / count,
     power = 10 ** Math.floor(Math.log10(rough)),
@@ -52,7 +52,7 @@ function stepOf(range: number, count: number): number {
   return (part <= 1 ? 1 : part <= 2 ? 2 : part <= 5 ? 5 : 10) * power
 }
 
-/** Moves labels apart that would lie on each other, as little as may be; in the order given, which must be that of the places. */
+/** Moves overlapping labels apart as little as possible; the given order must be that of the positions. */
 export function apart(places: readonly number[], least: number, low: number, high: number): readonly number[] {
   const out = [...places]
   for (let i = 0; i < out.length; ++i) out[i] = Math.max(out[i], i > 0 ? out[i - 1] + least : low)

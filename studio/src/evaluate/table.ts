@@ -3,7 +3,7 @@ import { figureOf, type Hand, type Task, type Group } from './evaluation'
 import { bestOf, columnName, methodsIn, type Better, type Measure } from './measures'
 import { inOrder, isBound } from './methods'
 
-/** One column of figures: what a cell of it is, and how it is judged. */
+/** One column of figures: its measure, and how it is rated. */
 export interface Column {
   readonly key: string
   readonly digits: number
@@ -18,9 +18,9 @@ export interface Row {
 export interface FigureTable {
   readonly columns: readonly Column[]
   readonly rows: readonly Row[]
-  /** Of each column. */ readonly best: readonly ReadonlySet<string>[]
+  /** The best methods of each column. */ readonly best: readonly ReadonlySet<string>[]
 }
-/** By which column, −1 the methods' own order. */
+/** The column to sort by; −1 for the methods' own order. */
 export interface Sorting {
   readonly column: number
   readonly down: boolean
@@ -43,7 +43,7 @@ function tableOf(methods: readonly string[], columns: readonly Column[], cell: (
   }
 }
 
-/** One measure of one hand, a column for each group. */
+/** Returns one measure of one hand, with a column for each group. */
 export function tableByGroup(groups: readonly Group[], hand: Hand, measure: Measure): FigureTable {
   const columns = groups.map(({ group }) => ({ ...measure, key: group }))
   return tableOf(
@@ -53,7 +53,7 @@ export function tableByGroup(groups: readonly Group[], hand: Hand, measure: Meas
   )
 }
 
-/** All measures of one hand in one group, those left out that nothing tells of. */
+/** Returns all measures of one hand in one group, without those that have no figures. */
 export function tableByMeasure(group: Group, hand: Hand, measures: readonly Measure[]): FigureTable {
   const scores = group.hands[hand]
   const there = measures.filter(({ measure }) => methodsIn(scores).some((method) => figureOf(scores, method, measure)))
@@ -64,7 +64,7 @@ export function tableByMeasure(group: Group, hand: Hand, measures: readonly Meas
   )
 }
 
-/** Rows without a figure come last, whichever way. */
+/** Rows without a figure come last, in either direction. */
 export function sorted(table: FigureTable, { column, down }: Sorting): readonly Row[] {
   if (column < 0 || column >= table.columns.length) return down ? table.rows.toReversed() : table.rows
   const of = (row: Row) => row.cells[column]?.value
@@ -76,7 +76,7 @@ export function sorted(table: FigureTable, { column, down }: Sorting): readonly 
   })
 }
 
-/** For `csvOf`: a row a method; of each column the figure, its interval and what it is from. `known` stands before each row. */
+/** Returns the rows for `csvOf`, one per method; for each column the figure, its interval and its sample size. `known` is prepended to each row. */
 export function csvRows(
   table: FigureTable,
   rows: readonly Row[],
@@ -92,7 +92,7 @@ export function csvRows(
   ]
 }
 
-/** What a task measured: how many spans and recordings, and how far the durations are off, which is the same for all methods. */
+/** Returns a task's counts of spans and recordings, and the error of the durations, which is the same for all methods. */
 export function countsOf(
   task: Task,
   durations: readonly Measure[],

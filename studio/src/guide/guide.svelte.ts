@@ -4,23 +4,23 @@ import { begin, finish, goTo, looked, readProgress, stepAt, type Progress } from
 import type { About, Path } from './steps'
 
 const kKey = 'signweave.guide'
-/** As much as a step needs to know of. */
+/** The number of calls remembered, enough for every step. */
 const kMostCalls = 200
 
 interface Stage {
   readonly transport: { readonly playing: boolean; readonly speed: number; readonly loop: unknown }
 }
 
-/** The guided path that somebody is on, as long as this browser remembers. */
+/** The user's guided path, as long as this browser remembers it. */
 class Guide {
   progress = $state.raw<Progress | undefined>(read())
   /** The step that has just been recognised as done. */
   justDone = $state('')
   private calls: Answered[] = []
-  /** Of the path's database; unknown until the panel has told. */
+  /** The number in the path's database; unknown until the panel has reported it. */
   private recordings: number | undefined
 
-  /** The path that the panel goes along with. */
+  /** The path that the panel follows. */
   get under(): Progress | undefined {
     return this.progress?.under ? this.progress : undefined
   }
@@ -37,7 +37,7 @@ class Guide {
   back(): void {
     if (this.progress) this.step(goTo(this.progress, this.progress.step - 1))
   }
-  /** `done` where the user says that it is; else it is left out. */
+  /** `done` if the user confirms the step; otherwise it is skipped. */
   next(done: boolean): void {
     if (this.progress) this.step(done ? finish(this.progress) : goTo(this.progress, this.progress.step + 1))
   }
@@ -50,7 +50,7 @@ class Guide {
     if (this.progress?.under && this.calls.length < kMostCalls) this.calls.push(call)
   }
 
-  /** Looks where the user is, a few times a second: pages change the address without telling. */
+  /** Checks where the user is, a few times a second: pages change the address without an event. */
   look(recordings: number): void {
     const { under } = this
     if (!under) return
@@ -68,7 +68,7 @@ class Guide {
     const id = now.step !== under.step ? stepAt(under)?.id : undefined
     this.change(now)
     if (id) this.justDone = id
-    // What the next step finds done is known at once.
+    // If the next step is already done, this is known at once.
     if (id) this.look(recordings)
   }
 
@@ -81,7 +81,7 @@ class Guide {
     try {
       localStorage.setItem(kKey, JSON.stringify(progress))
     } catch {
-      // a page that may store nothing forgets it when it is closed
+      // if storage is forbidden, it is forgotten when the page is closed
     }
   }
 }

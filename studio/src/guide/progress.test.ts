@@ -2,7 +2,7 @@ import { describe, expect, it } from 'vitest'
 import { parseRoute } from '../ui/route'
 import { begin, finish, goTo, isOver, looked, readProgress, stepAt, type Progress } from './progress'
 import { kSteps, type Facts } from './steps'
-import { words } from './words'
+import { messages } from './messages'
 
 const about = { database: 'demo', recording: 'meteo', gloss: 'MATIN' }
 const facts = (hash: string, more: Partial<Facts> = {}): Facts => ({
@@ -18,20 +18,20 @@ const facts = (hash: string, more: Partial<Facts> = {}): Facts => ({
 const call = (method: string, where: string, body = '') => ({ method, where, body })
 
 describe('a guided path', () => {
-  it('goes on by itself when a step has just been done', () => {
+  it('advances when a step has just been done', () => {
     let progress = looked(begin('demo', about), facts('#/demo/guide'))
     expect([progress.step, progress.met, progress.before]).toEqual([0, false, 2])
     expect(looked(progress, facts('#/demo/guide'))).toBe(progress)
     progress = looked(progress, facts('#/demo/recording/meteo'))
     expect([progress.step, progress.done, progress.met]).toEqual([1, ['open'], undefined])
   })
-  it('waits where a step was done before it began', () => {
+  it('waits if a step was done before it began', () => {
     const progress = looked(begin('demo', about), facts('#/demo/recording/meteo'))
     expect([progress.step, progress.done, progress.met]).toEqual([0, ['open'], true])
     expect(looked(progress, facts('#/demo/recording/meteo'))).toBe(progress)
     expect(finish(progress).step).toBe(1)
   })
-  it('tells from how many recordings there were that more have come', () => {
+  it('detects new recordings from their number', () => {
     const at = kSteps.own.findIndex(({ id }) => id === 'store')
     let progress = looked(goTo(begin('own', about), at), facts('#/mine/import', { recordings: 0 }))
     progress = readProgress(JSON.stringify(progress))!
@@ -46,29 +46,29 @@ describe('a guided path', () => {
     expect(looked(progress, facts('#/demo'))).toBe(progress)
     expect(goTo(progress, -3).step).toBe(0)
   })
-  it('is kept, and nothing else is read for it', () => {
+  it('is stored, and rejects anything else', () => {
     const progress = finish(begin('demo', about))
     expect(readProgress(JSON.stringify({ ...progress, met: true }))).toEqual(progress)
     const waiting = looked(progress, facts('#/demo'))
     expect(readProgress(JSON.stringify(waiting))).toEqual({ ...progress, met: false, before: 2 })
     for (const wrong of [null, '', '{}', 'null', '{"path":"x"}', JSON.stringify({ ...progress, step: 'a' })]) expect(readProgress(wrong)).toBeUndefined()
   })
-  it('has words for every step in both languages', () => {
+  it('has texts for every step in both languages', () => {
     for (const step of [...kSteps.demo, ...kSteps.own]) {
-      for (const language of ['en', 'fr'] as const) expect(words[language].steps[step.id as never], `${language} ${step.id}`).toBeTruthy()
+      for (const language of ['en', 'fr'] as const) expect(messages[language].steps[step.id as never], `${language} ${step.id}`).toBeTruthy()
     }
   })
 })
 
 describe('steps', () => {
   const met = (path: 'demo' | 'own', id: string, now: Facts) => kSteps[path].find((step) => step.id === id)!.done!(now)
-  it('are told by what is seen of the player', () => {
+  it('are recognised from the player', () => {
     expect(met('demo', 'slow', facts('#/demo/recording/meteo', { playing: true, speed: 1 }))).toBe(false)
     expect(met('demo', 'slow', facts('#/demo/recording/meteo', { playing: true, speed: 0.5 }))).toBe(true)
     expect(met('demo', 'slow', facts('#/demo/compose', { playing: true, speed: 0.5 }))).toBe(false)
     expect(met('demo', 'select', facts('#/demo/recording/meteo', { selected: true }))).toBe(true)
   })
-  it('are told by the address', () => {
+  it('are recognised from the address', () => {
     expect(met('demo', 'search', facts('#/demo/search'))).toBe(false)
     expect(met('demo', 'search', facts('#/demo/search?q=gloss'))).toBe(true)
     expect(met('demo', 'grid', facts('#/demo/search?q=gloss&view=table'))).toBe(false)
@@ -80,7 +80,7 @@ describe('steps', () => {
     expect(met('demo', 'transition', facts('#/demo/compose?utterance=A+B&junctions=1%3Dgap'))).toBe(true)
     expect(met('demo', 'transition', facts('#/demo/compose?utterance=A+B'))).toBe(false)
   })
-  it('are told by calls that were answered', () => {
+  it('are recognised from answered calls', () => {
     const on = (...calls: ReturnType<typeof call>[]) => facts('#/demo/compose?utterance=A', { calls })
     expect(met('demo', 'save', on(call('POST', 'databases/demo/sign', '{"utterance":"A","format":"frames"}')))).toBe(false)
     expect(met('demo', 'save', on(call('POST', 'databases/demo/sign', '{"utterance":"A"}')))).toBe(false)

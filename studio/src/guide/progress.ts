@@ -1,18 +1,18 @@
 import { kPaths, kSteps, type About, type Facts, type Path } from './steps'
 
-/** How far somebody is on a path. */
+/** The user's progress on a path. */
 export interface Progress {
   readonly path: Path
   readonly about: About
-  /** Its number; as many as there are steps where all is over. */
+  /** The index of the current step; the number of steps if the path is finished. */
   readonly step: number
-  /** What was done, by `id`. */
+  /** The ids of the steps that were done. */
   readonly done: readonly string[]
-  /** Whether the panel goes along; a path that was left can be taken up again. */
+  /** Whether the panel follows it; a path that was left can be resumed. */
   readonly under: boolean
-  /** Whether the step was done when it began, so that it is not left by itself. Unknown until it was looked. */
+  /** Whether the step was already done when it began, in which case it does not end by itself. Undefined until checked. */
   readonly met?: boolean
-  /** How many recordings there were when the step began. */
+  /** The number of recordings when the step began. */
   readonly before?: number
 }
 
@@ -20,12 +20,12 @@ export const begin = (path: Path, about: About): Progress => ({ path, about, ste
 export const stepAt = ({ path, step }: Progress) => kSteps[path].at(step)
 export const isOver = ({ path, step }: Progress) => step >= kSteps[path].length
 
-/** Goes to another step, the one before the first or after the last being none. */
+/** Goes to another step; before the first or after the last it changes nothing. */
 export function goTo(progress: Progress, step: number): Progress {
   const { met: _, before: __, ...rest } = progress
   return { ...rest, step: Math.min(kSteps[progress.path].length, Math.max(0, step)) }
 }
-/** The step is done, and the next one begins. */
+/** Marks the step as done and begins the next one. */
 export function finish(progress: Progress): Progress {
   return goTo(marked(progress), progress.step + 1)
 }
@@ -34,7 +34,9 @@ function marked(progress: Progress): Progress {
   return !id || progress.done.includes(id) ? progress : { ...progress, done: [...progress.done, id] }
 }
 
-/** What is known now: a step that has just been done is over; one that was done before it began waits for the user. The same where nothing changed. */
+/**
+ * Applies new facts: a step that has just been done is over; one that was done before it began waits for the user. Returns the same object if nothing changed.
+ */
 export function looked(progress: Progress, facts: Omit<Facts, 'recordingsBefore'>): Progress {
   const step = stepAt(progress)
   if (!step) return progress
@@ -45,7 +47,7 @@ export function looked(progress: Progress, facts: Omit<Facts, 'recordingsBefore'
   return { ...(is ? marked(progress) : progress), met: is, before }
 }
 
-/** What was kept as text; none where it is something else. */
+/** Reads a stored progress; undefined if the text is something else. */
 export function readProgress(text: string | null): Progress | undefined {
   try {
     const { path, about, step, done, under, met, before } = JSON.parse(text ?? '') as Progress
@@ -59,7 +61,7 @@ export function readProgress(text: string | null): Progress | undefined {
       Array.isArray(done)
     if (!right) return undefined
     const read = goTo({ path, about, step, done: done.filter((id) => typeof id === 'string'), under: under === true }, step)
-    // What was not done yet is recognised after a reload, too.
+    // A step that was not done yet is recognised after a reload, too.
     return read.step === step && met === false && Number.isInteger(before) ? { ...read, met, before } : read
   } catch {
     return undefined

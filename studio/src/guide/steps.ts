@@ -1,18 +1,18 @@
 import type { Answered } from '../api/client'
 import type { Route, WorkPage } from '../ui/route'
 
-/** What is known of what somebody does: where they are, what plays there, and which calls were answered since the step began. */
+/** The known facts about the user's activity: the current page, what it plays, and which calls were answered since the step began. */
 export interface Facts {
   readonly route: Route
   readonly playing: boolean
   readonly speed: number
   readonly selected: boolean
   readonly calls: readonly Answered[]
-  /** How many recordings the database has, and had when the step began. */
+  /** The number of recordings in the database now, and when the step began. */
   readonly recordings: number
   readonly recordingsBefore: number
 }
-/** What a path is about; the words of its steps name it. */
+/** The subject of a path; the texts of its steps name it. */
 export interface About {
   readonly database: string
   readonly recording: string
@@ -20,9 +20,9 @@ export interface About {
 }
 export interface Step {
   readonly id: string
-  /** Where it is done. */
+  /** The page on which the step is done. */
   readonly to: (about: About) => Route
-  /** Whether it was done. None where only the user knows. */
+  /** Whether the step was done. Undefined if only the user knows. */
   readonly done?: (facts: Facts) => boolean
 }
 export const kPaths = ['demo', 'own'] as const
@@ -35,12 +35,12 @@ const recording = ({ database, recording }: About): Route => (recording ? { page
 const stateOf = (facts: Facts, page: WorkPage) => (facts.route.page === page && 'state' in facts.route ? facts.route.state : undefined)
 const utteranceOf = (facts: Facts) => stateOf(facts, 'compose')?.utterance ?? ''
 const called = (facts: Facts, method: string, where: RegExp) => facts.calls.some((call) => call.method === method && where.test(call.where))
-/** A file that was made here: the call that makes it says as what. */
+/** A file that was generated: the call gives its format. */
 const isFile = ({ method, where, body }: Answered) =>
   (method === 'POST' && /\/(sign|edit)$/.test(where) && /"format":"(?!frames"|json")/.test(body)) ||
   (method === 'GET' && /\/motion\?/.test(where) && /[?&]format=(?!frames\b)/.test(where))
 const saved = (facts: Facts) => facts.calls.some(isFile)
-/** How the address tells a token and a way of joining. */
+/** How the address specifies a token and a join. */
 const kToken = /#\d|@\d+\.\./
 
 const kDemo: readonly Step[] = [

@@ -1,4 +1,4 @@
-/** A curve like that of a hand's height, as the outline of a path: from (`x`, `y`) to the right, `height` high at most. */
+/** Returns a curve like that of a hand's height, as SVG path data: from (`x`, `y`) to the right, at most `height` high. */
 export function curve(x: number, y: number, width: number, height: number, phase: number): string {
   const points = Array.from({ length: Math.round(width / 4) + 1 }, (_, k) => {
     const t = (x + 4 * k) / 34 + phase

@@ -2,7 +2,7 @@ import { frameBytes, kMessageHeaderBytes, kRotationUnit, kTranslationUnit, type 
 import type { Pose } from './pose'
 import type { Skeleton } from './skeleton'
 
-/** Packs poses into a message of docs/stream.md; what a server does, for tests and for pages that show a signer at rest. */
+/** Packs poses into a message of docs/stream.md, as a server does; for tests and for pages that show a signer at rest. */
 export function encode(skeleton: Skeleton, poses: readonly Pose[], first = 0): ArrayBuffer {
   const message = new ArrayBuffer(kMessageHeaderBytes + poses.length * frameBytes(skeleton))
   const view = new DataView(message)
@@ -26,7 +26,7 @@ export function encode(skeleton: Skeleton, poses: readonly Pose[], first = 0): A
   return message
 }
 
-/** The same as a block for a store. */
+/** Returns the same as a block for a store. */
 export function blockOf(skeleton: Skeleton, poses: readonly Pose[], first = 0): FrameBlock {
   return { first, count: poses.length, buffer: encode(skeleton, poses), offset: kMessageHeaderBytes }
 }

@@ -6,42 +6,42 @@ import { chainTo, type Rig, type Skeleton } from './skeleton'
 const kPageBits = 7
 const kPageFrames = 1 << kPageBits
 
-/** 128 frames in the layout of docs/stream.md, looked at as three kinds of number. */
+/** 128 frames in the layout of docs/stream.md, viewed as three number types. */
 interface Page {
   readonly ints: Int32Array
   readonly floats: Float32Array
   readonly shorts: Int16Array
-  /** 1 where the frame is here. */
+  /** 1 if the frame is loaded. */
   readonly there: Uint8Array
-  /** How many are. */
+  /** The number of loaded frames. */
   count: number
 }
 
-/** What is kept of 128 frames for good. */
+/** The part of 128 frames that is stored permanently. */
 interface Trace {
-  /** 1 where the frame has come. */
+  /** 1 if the frame has arrived. */
   readonly came: Uint8Array
-  /** [6 · frame]: left wrist, right wrist, metres, model space; NaN where the rig has no such joint. */
+  /** [6 · frame]: left wrist, right wrist, metres, model space; NaN if the rig has no such joint. */
   readonly hands: Float32Array
-  /** How many have come. */
+  /** The number of frames that have arrived. */
   count: number
 }
 
 /**
- * The frames of a motion as far as they have come, in any order. Reading allocates nothing. Of an hour there are too many to be
- * kept: pages of frames may be given up and come again, while the places of the hands, which the curves show, stay.
+ * The frames of a motion as far as they have arrived, in any order. Reading allocates nothing. An hour has too many to store all: pages of frames may be
+ * dropped and fetched again, while the positions of the hands, which the curves show, stay.
  */
 export class FrameStore {
   readonly skeleton: Skeleton
   /** Frames a second. */
   readonly rate: number
-  /** Which parts of the hands `hand` tells of; false where the rig has no such joint. */
+  /** For which hands `hand` has values; false if the rig has no such joint. */
   readonly hasHand: readonly [boolean, boolean]
-  /** How many frames the motion has; of a stream, how many have come. */
+  /** The number of frames of the motion; for a stream, the number received. */
   length: number
-  /** How many frames have come, each counted once. */
+  /** The number of frames that have arrived, each counted once. */
   arrived = 0
-  /** How many frames are here. */
+  /** The number of frames stored. */
   held = 0
   private readonly pages: (Page | undefined)[] = []
   private readonly traces: (Trace | undefined)[] = []
@@ -87,12 +87,12 @@ export class FrameStore {
     this.length = Math.max(this.length, block.first + block.count)
   }
 
-  /** Gives up whole pages of frames before `frame`: a stream goes on for hours, and nobody looks back that far. */
+  /** Drops whole pages of frames before `frame`: a stream runs for hours, and that far back is never shown again. */
   forgetBefore(frame: number): void {
     for (let page = (frame >> kPageBits) - 1; page >= 0 && this.pages[page]; --page) this.forget(page)
   }
 
-  /** Gives up pages, the farthest from `frame` first, until at most `most` frames are here. */
+  /** Drops pages, the farthest from `frame` first, until at most `most` frames are stored. */
   keepAround(frame: number, most: number): void {
     const here = frame >> kPageBits
     for (let low = 0, high = this.pages.length - 1; this.held > most && (low < here - 1 || high > here + 1);) {
@@ -106,14 +106,14 @@ export class FrameStore {
     return page !== undefined && page.there[frame & (kPageFrames - 1)] === 1
   }
 
-  /** The first frame at or after `frame` that is not here, or `length`. */
+  /** Returns the first frame at or after `frame` that is not stored, or `length`. */
   firstMissing(frame: number): number {
     let f = Math.max(0, frame)
     while (f < this.length && this.has(f)) f += this.pages[f >> kPageBits]!.count === kPageFrames ? kPageFrames - (f & (kPageFrames - 1)) : 1
     return Math.min(f, this.length)
   }
 
-  /** The first frame at or after `frame`, else at all, that never came; `length` where all have. */
+  /** Returns the first frame at or after `frame`, otherwise the first of all, that never arrived; `length` if all have. */
   firstNew(frame: number): number {
     for (const [from, end] of [
       [Math.max(0, frame), this.length],
@@ -128,14 +128,14 @@ export class FrameStore {
     return this.length
   }
 
-  /** One number of a wrist's place in metres: `hand` 0 is left, 1 right; `axis` 0 x, 1 y, 2 z. NaN where it has not come. */
+  /** Returns one coordinate of a wrist in metres: `hand` 0 is left, 1 right; `axis` 0 x, 1 y, 2 z. NaN if it has not arrived. */
   hand(frame: number, hand: 0 | 1, axis: 0 | 1 | 2): number {
     const trace = this.traces[frame >> kPageBits]
     const at = frame & (kPageFrames - 1)
     return trace && trace.came[at] ? trace.hands[6 * at + 3 * hand + axis] : NaN
   }
 
-  /** Metres a second of a wrist at a frame, from the frames before and after it; NaN where they have not come. */
+  /** Returns the speed of a wrist at a frame in metres a second, from the frames before and after it; NaN if these have not arrived. */
   speed(frame: number, hand: 0 | 1): number {
     const before = Math.max(0, frame - 1),
       after = Math.min(this.length - 1, frame + 1)
@@ -146,8 +146,8 @@ export class FrameStore {
   }
 
   /**
-   * The pose at a time in seconds from frame 0, between the two frames around it. Where one of them has not come the nearest
-   * earlier one that has stands in. False, and the pose as it was, where there is none.
+   * Interpolates the pose at a time in seconds from frame 0. If one of the two frames is missing, the nearest earlier one is used. Returns false, and leaves
+   * the pose unchanged, if there is none.
    */
   sample(seconds: number, pose: Pose): boolean {
     const at = Math.min(Math.max(0, seconds * this.rate), Math.max(0, this.length - 1))
@@ -164,7 +164,7 @@ export class FrameStore {
     return true
   }
 
-  /** Lets the pose go over to a frame by `part`; `fresh` overwrites it. Rotations keep to one side and are not unit yet. */
+  /** Blends the pose towards a frame by `part`; `fresh` overwrites it. Rotations are put on one hemisphere and are not normalised yet. */
   private read(frame: number, pose: Pose, part: number, fresh: boolean): void {
     const page = this.pages[frame >> kPageBits]!
     const words = ((frame & (kPageFrames - 1)) * this.bytes) >> 2
@@ -182,7 +182,7 @@ export class FrameStore {
         y = page.shorts[short + 1] * kRotationUnit
       const z = page.shorts[short + 2] * kRotationUnit,
         w = page.shorts[short + 3] * kRotationUnit
-      // q and -q are one rotation: the blend takes the short way round.
+      // q and -q are the same rotation: the blend takes the shorter arc.
       const dot = fresh ? 1 : rotations[j] * x + rotations[j + 1] * y + rotations[j + 2] * z + rotations[j + 3] * w
       const to = dot < 0 ? -part : part
       rotations[j] = keep * rotations[j] + to * x
@@ -205,7 +205,7 @@ export class FrameStore {
     }
   }
 
-  /** Keeps where the hands are at a frame that has just come. */
+  /** Stores the hand positions of a frame that has just arrived. */
   private measure(frame: number): void {
     const trace = (this.traces[frame >> kPageBits] ??= { came: new Uint8Array(kPageFrames), hands: new Float32Array(6 * kPageFrames), count: 0 })
     const at = frame & (kPageFrames - 1)

@@ -24,7 +24,7 @@ const kHeader: FramesHeader = {
   layout: 1,
   frame_bytes: 32,
 }
-/** A root that moves and turns about y by 0, then 90 degrees, and a hand a metre to its left. */
+/** A root that moves and is rotated about y by 0, then 90 degrees, and a hand a metre to its left. */
 function turn(): [Pose, Pose] {
   const a = restPose(kSkeleton),
     b = restPose(kSkeleton)
@@ -35,7 +35,7 @@ function turn(): [Pose, Pose] {
 }
 
 describe('the layout of frames', () => {
-  it('has the bytes that docs/stream.md says', () => {
+  it('has the bytes given in docs/stream.md', () => {
     expect(frameBytes(kSkeleton)).toBe(12 + 4 + 16)
     const view = new DataView(encode(kSkeleton, turn()), kMessageHeaderBytes)
     expect(view.getInt32(32, true)).toBe(50000) // half a metre in units of 10 µm, second frame
@@ -43,7 +43,7 @@ describe('the layout of frames', () => {
     expect(view.getInt16(32 + 16 + 2, true)).toBe(Math.round(half * 32767))
   })
 
-  it('refuses messages that are not as long as they say', () => {
+  it('rejects messages whose length does not match their header', () => {
     const message = encode(kSkeleton, [restPose(kSkeleton)], 41)
     const view = new DataView(message)
     view.setUint32(4, 7, true)
@@ -54,17 +54,17 @@ describe('the layout of frames', () => {
     expect(() => decodeMessage(message, 32)).toThrow('layout 2')
   })
 
-  it('refuses a header whose frames are of another length or layout', () => {
+  it('rejects a header with frames of another length or layout', () => {
     expect(skeletonOf(kHeader)).toEqual(kSkeleton)
     expect(() => skeletonOf({ ...kHeader, frame_bytes: 36 })).toThrow('36 bytes')
     expect(() => skeletonOf({ ...kHeader, layout: 2 })).toThrow('layout 2')
   })
 })
 
-describe('frames that a call answers', () => {
-  const told: MotionHeader = { ...kHeader, frames: 3, origin_ms: 120, rig: { parts: { left_hand: { joint: 'hand', index: 1 } } } }
+describe('frames in an answer', () => {
+  const motionHeader: MotionHeader = { ...kHeader, frames: 3, origin_ms: 120, rig: { parts: { left_hand: { joint: 'hand', index: 1 } } } }
   /** The bytes of an answer of two messages, in parts of `size` bytes. */
-  function body(size: number, header = told, cut = 0): ReadableStream<Uint8Array> {
+  function body(size: number, header = motionHeader, cut = 0): ReadableStream<Uint8Array> {
     const text = new TextEncoder().encode(JSON.stringify(header)),
       length = new Uint8Array(new Uint32Array([text.length]).buffer)
     const parts = [length, text, new Uint8Array(encode(kSkeleton, turn())), new Uint8Array(encode(kSkeleton, [turn()[0]], 2))]
@@ -86,30 +86,30 @@ describe('frames that a call answers', () => {
     return store!
   }
 
-  it('are read in whatever parts they come', async () => {
+  it('are read in chunks of any size', async () => {
     for (const size of [1, 7, 50, 100_000]) {
       const store = await read(body(size))
       expect([store.arrived, store.length, store.hand(1, 0, 2)]).toEqual([3, 3, expect.closeTo(-1, 3)])
     }
   })
 
-  it('are refused where the answer ends early, goes on, or has no header', async () => {
-    await expect(read(body(64, told, 5))).rejects.toThrow('too early')
-    await expect(read(body(64, { ...told, frames: 2 }))).rejects.toThrow('more comes')
+  it('are rejected if the answer ends early, continues, or has no header', async () => {
+    await expect(read(body(64, motionHeader, 5))).rejects.toThrow('too early')
+    await expect(read(body(64, { ...motionHeader, frames: 2 }))).rejects.toThrow('longer than')
     await expect(read(new ReadableStream({ start: (stream) => (stream.enqueue(Uint8Array.from([2, 0, 0, 0, 0x7b, 0x7b])), stream.close()) }))).rejects.toThrow(
-      'no JSON',
+      'not JSON',
     )
   })
 })
 
-describe('frames that have come', () => {
+describe('stored frames', () => {
   const store = () => {
     const made = new FrameStore(kSkeleton, 10, { left_hand: { joint: 1 } }, 400)
-    made.put(blockOf(kSkeleton, turn(), 127)) // over the bound of two pages
+    made.put(blockOf(kSkeleton, turn(), 127)) // across the boundary of two pages
     return made
   }
 
-  it('are blended between, places in a line and rotations the short way', () => {
+  it('are interpolated, positions linearly and rotations along the shorter arc', () => {
     const made = store()
     const pose = restPose(made.skeleton)
     expect(made.sample(12.75, pose)).toBe(true)
@@ -119,7 +119,7 @@ describe('frames that have come', () => {
     expect(Math.hypot(...pose.rotations.slice(0, 4))).toBeCloseTo(1, 6)
   })
 
-  it('are not invented where none has come', () => {
+  it('are not invented if none has arrived', () => {
     const made = store()
     const pose = restPose(made.skeleton)
     expect(made.sample(3, pose)).toBe(false)
@@ -129,7 +129,7 @@ describe('frames that have come', () => {
     expect([made.firstMissing(127), made.firstNew(127), made.arrived]).toEqual([129, 129, 2])
   })
 
-  it('are given up by whole pages, and their hands kept', () => {
+  it('are dropped by whole pages, and their hand positions kept', () => {
     const made = store()
     made.forgetBefore(200)
     expect([made.has(127), made.has(128), made.held, made.arrived]).toEqual([false, true, 1, 2])
@@ -140,7 +140,7 @@ describe('frames that have come', () => {
     expect([made.held, made.arrived]).toEqual([2, 2])
   })
 
-  it('are kept around the picture where there are too many, and asked for where none ever came', () => {
+  it('are kept around the current time if there are too many, and requested if they never arrived', () => {
     const made = new FrameStore(kSkeleton, 10, {}, 1000)
     for (let frame = 0; frame < 900; frame += 2) made.put(blockOf(kSkeleton, turn(), frame))
     expect([made.held, made.firstNew(950), made.firstMissing(0)]).toEqual([900, 950, 900])
@@ -157,10 +157,10 @@ describe('frames that have come', () => {
     expect([made.firstNew(500), made.arrived, made.firstMissing(0)]).toEqual([1000, 1000, 0])
   })
 
-  it('tell where the hand is and how fast', () => {
+  it('give the position and speed of the hands', () => {
     const made = store()
     expect(made.hand(127, 0, 0)).toBeCloseTo(1, 3)
-    expect(made.hand(128, 0, 2)).toBeCloseTo(-1, 3) // turned by 90 degrees about y
+    expect(made.hand(128, 0, 2)).toBeCloseTo(-1, 3) // rotated by 90 degrees about y
     expect(made.hand(127, 1, 0)).toBeNaN()
     expect(made.speed(200, 0)).toBeNaN()
     expect(made.hasHand).toEqual([true, false])

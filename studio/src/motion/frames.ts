@@ -1,15 +1,15 @@
 import { StudioFault } from '../api/fault'
 import type { Joint, Skeleton } from './skeleton'
 
-/** The bytes of frames, as docs/stream.md has them; all that knows the layout is here and in `FrameStore`. */
+/** The bytes of frames as specified in docs/stream.md; only this file and `FrameStore` know the layout. */
 export const kMessageHeaderBytes = 16
-/** Of a translation, in metres: one unit is 10 µm. */
+/** For a translation, in metres: one unit is 10 µm. */
 export const kTranslationUnit = 1e-5
-/** Of a rotation. */
+/** For a rotation. */
 export const kRotationUnit = 1 / 32767
 const kLayout = 1
 
-/** Frames that follow each other, in the layout of docs/stream.md. */
+/** Consecutive frames, in the layout of docs/stream.md. */
 export interface FrameBlock {
   /** Number of the first frame, from 0. */
   readonly first: number
@@ -19,11 +19,11 @@ export interface FrameBlock {
   readonly offset: number
 }
 
-/** What frames are of: a stream's `header`, and what stands before the frames of a call. */
+/** Describes frames: a stream's `header`, and the header before the frames of a call. */
 export interface FramesHeader {
-  /** The recording whose skeleton it is, or the character's that plays it. */
+  /** The recording whose skeleton is used, or whose motion is retargeted to the character. */
   readonly recording: string
-  /** The character whose joints these are, where one was asked for. */
+  /** The character whose joints are used, if one was requested. */
   readonly character?: string
   readonly declarations: readonly { readonly name: string; readonly value: string }[]
   /** Frames a second. */
@@ -35,12 +35,12 @@ export interface FramesHeader {
   readonly tracks: readonly string[]
 }
 
-/** How many bytes a frame of this skeleton has. It is a multiple of 4. */
+/** Returns the number of bytes of a frame of this skeleton, a multiple of 4. */
 export function frameBytes(skeleton: Skeleton): number {
   return 12 * skeleton.translated.length + 4 * skeleton.tracks.length + 8 * skeleton.joints.length
 }
 
-/** The skeleton that a header tells of. Throws where its frames are laid out in a way that this page does not know. */
+/** Returns the skeleton described by a header. Throws if the frame layout is not supported by this page. */
 export function skeletonOf(header: FramesHeader): Skeleton {
   const joints = header.joints.map(({ name, parent, offset }) => ({ name, parent, offset }))
   const skeleton = { joints, translated: header.translated, tracks: header.tracks }
@@ -50,20 +50,20 @@ export function skeletonOf(header: FramesHeader): Skeleton {
   return skeleton
 }
 
-/** What a header's declarations are, by name. */
+/** Returns a header's declarations, by name. */
 export function declarationsOf(header: FramesHeader): Readonly<Record<string, string>> {
   return Object.fromEntries(header.declarations.map(({ name, value }) => [name, value]))
 }
 
-/** What the header of a binary message says; throws where the layout is not 1. */
+/** Reads the header of a binary message; throws if the layout is not 1. */
 export function messageHead(message: DataView): { first: number; count: number; leftOut: number } {
   if (message.getUint8(0) !== kLayout) throw new StudioFault('badAnswer', `frames of layout ${message.getUint8(0)}`)
   return { first: Number(message.getBigUint64(8, true)), count: message.getUint16(2, true), leftOut: message.getUint32(4, true) }
 }
 
-/** Reads a binary message of a stream. Throws where it is not of layout 1 or not as long as it says. */
+/** Reads a binary message of a stream. Throws if it is not of layout 1 or its length does not match its header. */
 export function decodeMessage(message: ArrayBuffer, bytesOfFrame: number): FrameBlock & { leftOut: number } {
-  if (message.byteLength < kMessageHeaderBytes) throw new StudioFault('badAnswer', 'a message of frames that has no header')
+  if (message.byteLength < kMessageHeaderBytes) throw new StudioFault('badAnswer', 'a message of frames without a header')
   const head = messageHead(new DataView(message))
   if (message.byteLength !== kMessageHeaderBytes + head.count * bytesOfFrame) {
     throw new StudioFault('badAnswer', `${head.count} frames of ${bytesOfFrame} bytes in a message of ${message.byteLength}`)

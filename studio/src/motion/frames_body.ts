@@ -3,32 +3,32 @@ import type { PartRow, Report } from '../api/answers'
 import { kMessageHeaderBytes, messageHead, type FrameBlock, type FramesHeader } from './frames'
 import type { Rig } from './skeleton'
 
-/** The JSON text before the frames that a call answers (`application/vnd.signweave.frames`). */
+/** The JSON text before the frames in the answer of a call (`application/vnd.signweave.frames`). */
 export interface MotionHeader extends FramesHeader {
-  /** How many frames follow. */
+  /** The number of frames that follow. */
   readonly frames: number
   /** Annotation time of frame 0, ms. */
   readonly origin_ms: number
-  /** Which joint plays which part; none where the rig map could not tell. */
+  /** Maps parts to joints; missing if the rig map could not be determined. */
   readonly rig?: { readonly parts: Readonly<Record<string, PartRow>>; readonly sides_swapped?: boolean }
-  /** Of motion that was made; of a piece of a file that is to be imported, which piece it is. */
+  /** For generated motion; for a piece of a file to be imported, which piece it is. */
   readonly report?: Report & { readonly piece?: { /** Of the file. */ readonly frames_per_second: number } }
 }
 
-/** Is told what stands before the frames, then given the frames as they come; their bytes are the taker's only until it returns. */
+/** Receives the header, then the frames as they arrive; their bytes are valid only until the call returns. */
 export interface FrameTaker {
   begin(header: MotionHeader): void
   take(block: FrameBlock): void
 }
 
-/** Which joint plays which part; empty where the rig map could not tell. */
+/** Maps parts to joints; empty if the rig map could not be determined. */
 export function rigOf({ rig }: Pick<MotionHeader, 'rig'>): Rig {
   return Object.fromEntries(Object.entries(rig?.parts ?? {}).map(([part, { index, offset }]) => [part, { joint: index, offset }]))
 }
 
 const kLongestText = 64 << 20
 
-/** Reads what a call answers while it comes, until its end. Throws where the bytes are not those of docs/http.md or end too early. */
+/** Reads the answer of a call as it arrives, until its end. Throws if the bytes do not match docs/http.md or end too early. */
 export async function readFrames(body: ReadableStream<Uint8Array>, taker: FrameTaker): Promise<void> {
   const bytes = new Bytes(body.getReader())
   const length = view(await bytes.take(4)).getUint32(0, true)
@@ -49,19 +49,19 @@ function parsed(text: Uint8Array): MotionHeader {
   try {
     return JSON.parse(new TextDecoder('utf-8', { fatal: true }).decode(text)) as MotionHeader
   } catch {
-    throw new StudioFault('badAnswer', 'the header of frames is no JSON')
+    throw new StudioFault('badAnswer', 'the header of the frames is not JSON')
   }
 }
 
 const view = (bytes: Uint8Array): DataView => new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength)
 
-/** Bytes that come in parts of any length, taken in parts of another. */
+/** Regroups bytes that arrive in chunks of any length. */
 class Bytes {
   private rest = new Uint8Array(0)
 
   constructor(private readonly reader: ReadableStreamDefaultReader<Uint8Array>) {}
 
-  /** The next `count` bytes. Throws where the answer ends before. */
+  /** Returns the next `count` bytes. Throws if the answer ends before. */
   async take(count: number): Promise<Uint8Array> {
     if (this.rest.length < count) {
       const parts = [this.rest]
@@ -78,14 +78,14 @@ class Bytes {
     return taken
   }
 
-  /** Throws where more comes. */
+  /** Throws if more bytes arrive. */
   async end(): Promise<void> {
-    if (this.rest.length > 0 || !(await this.next()).done) throw new StudioFault('badAnswer', 'more comes than the header says')
+    if (this.rest.length > 0 || !(await this.next()).done) throw new StudioFault('badAnswer', 'it is longer than its header says')
   }
 
   private next(): Promise<ReadableStreamReadResult<Uint8Array>> {
     return this.reader.read().catch((fault: unknown) => {
-      throw fault instanceof TypeError ? new StudioFault('unreachable') : fault // so a page is told that the connection broke
+      throw fault instanceof TypeError ? new StudioFault('unreachable') : fault // how a page is notified of a broken connection
     })
   }
 }

@@ -1,7 +1,7 @@
 import { expect, it } from 'vitest'
-import { beside, stepsOfSigns } from './in_step'
+import { correspondingTime, stepsOfSigns } from './in_step'
 
-it('puts the k-th sign beside the k-th sign, and goes evenly between their bounds', () => {
+it('pairs the k-th sign with the k-th sign, and interpolates between their bounds', () => {
   const sign = (begin_ms: number, end_ms: number) => ({ gloss: 'X', place: 0, clip: 0, begin_ms, end_ms, recording: 'r', recorded: { begin_ms: 0, end_ms: 1 } })
   const steps = stepsOfSigns(
     [sign(1000, 2000), sign(3000, 4000)],
@@ -11,9 +11,9 @@ it('puts the k-th sign beside the k-th sign, and goes evenly between their bound
     ],
     500,
   )
-  expect(beside(steps, 1)).toBeCloseTo(1)
-  expect(beside(steps, 1.5)).toBeCloseTo(2)
-  expect(beside(steps, 2.5)).toBeCloseTo(3)
-  expect(beside(steps, 4)).toBeCloseTo(4)
-  expect(beside(steps, 6)).toBeCloseTo(6)
+  expect(correspondingTime(steps, 1)).toBeCloseTo(1)
+  expect(correspondingTime(steps, 1.5)).toBeCloseTo(2)
+  expect(correspondingTime(steps, 2.5)).toBeCloseTo(3)
+  expect(correspondingTime(steps, 4)).toBeCloseTo(4)
+  expect(correspondingTime(steps, 6)).toBeCloseTo(6)
 })

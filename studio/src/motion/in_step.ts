@@ -1,14 +1,13 @@
 import type { ReportSign } from '../api/answers'
 
-/** Pairs of moments that belong together, in seconds from frame 0 of either motion; both rise. */
+/** Corresponding times of two motions, in seconds from frame 0 of either; both lists ascend. */
 export interface Steps {
   readonly here: Float64Array
   readonly there: Float64Array
 }
 
 /**
- * What of an original stands beside each sign that was made from it: the k-th sign of the one beside the k-th of the other.
- * `original` are the signs' spans in ms of annotation time, in order.
+ * Pairs each sign with the original's sign from which it was made: the k-th with the k-th. `original` are the signs' spans in ms of annotation time, in order.
  */
 export function stepsOfSigns(signs: readonly ReportSign[], original: readonly { begin: number; end: number }[], originMs: number): Steps {
   const here: number[] = [0],
@@ -26,8 +25,8 @@ export function stepsOfSigns(signs: readonly ReportSign[], original: readonly { 
   return { here: Float64Array.from(here), there: Float64Array.from(there) }
 }
 
-/** The moment of the other motion beside a moment of this one. Allocates nothing. */
-export function beside({ here, there }: Steps, seconds: number): number {
+/** Returns the time in the other motion that corresponds to a time in this one. Allocates nothing. */
+export function correspondingTime({ here, there }: Steps, seconds: number): number {
   const last = here.length - 1
   if (last < 0 || seconds <= here[0]) return seconds
   if (seconds >= here[last]) return there[last] + (seconds - here[last])

@@ -1,7 +1,7 @@
 import type { Pose } from './pose'
 import type { Skeleton } from './skeleton'
 
-/** Forward kinematics with its own memory: model-space places of a skeleton's joints, pose after pose. */
+/** Forward kinematics with its own memory: model-space positions of a skeleton's joints, pose after pose. */
 export class Kinematics {
   /** [3 · joint], metres, model space. */
   readonly positions: Float32Array
@@ -15,7 +15,7 @@ export class Kinematics {
     this.rotations = new Float32Array(4 * skeleton.joints.length)
   }
 
-  /** Places every joint, or only those of `joints`, whose parents must come before them. */
+  /** Computes the positions of all joints, or only of `joints`, whose parents must precede them. */
   update(pose: Pose, joints?: readonly number[]): void {
     const count = joints ? joints.length : this.skeleton.joints.length
     for (let i = 0; i < count; ++i) this.place(pose, joints ? joints[i] : i)

@@ -10,18 +10,18 @@ export class PieceSource implements MotionSource {
   onFault?: (fault: Error) => void
   private readonly abort = new AbortController()
 
-  /** `title` stands on the screen. */
+  /** `title` is the name on the screen. */
   constructor(
     private readonly api: Api,
     private readonly database: string,
     private readonly recording: string,
-    private readonly wishes: PieceWishes,
+    private readonly options: PieceWishes,
     readonly title = recording,
   ) {}
 
   async open(): Promise<OpenedMotion> {
-    const { api, database, recording, wishes, abort } = this
-    const opened = await wholeMotion((taker) => api.piece(database, recording, wishes, taker, abort.signal))
+    const { api, database, recording, options, abort } = this
+    const opened = await wholeMotion((taker) => api.piece(database, recording, options, taker, abort.signal))
     this.complete = true
     return opened
   }

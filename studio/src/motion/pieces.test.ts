@@ -5,7 +5,7 @@ import type { MotionSource, OpenedMotion } from './source'
 const piece = (from: number): Piece => ({ recording: 'meteo', from, to: from + 1 })
 const kSkeleton = { joints: [{ name: 'root', parent: -1, offset: [0, 0, 0] }], translated: [0], tracks: [] }
 
-/** Pieces of 20 bytes a frame, ten frames each, that come when they are told to. */
+/** Pieces of 20 bytes a frame, ten frames each, that arrive on command. */
 function rig(most?: number) {
   const asked: number[] = [],
     closed: number[] = []
@@ -28,7 +28,7 @@ function rig(most?: number) {
   return { pieces, asked, closed, ends }
 }
 
-it('fetches a few at a time, in the order in which they are wanted', async () => {
+it('fetches a few at a time, in the requested order', async () => {
   const { pieces, asked, ends } = rig()
   const come: string[] = []
   pieces.onCome = (key) => come.push(key)
@@ -41,7 +41,7 @@ it('fetches a few at a time, in the order in which they are wanted', async () =>
   expect(pieces.get(piece(3))).toBeUndefined()
 })
 
-it('gives up what is wanted no more, and hears nothing of it', async () => {
+it('cancels pieces that are no longer wanted, and ignores their results', async () => {
   const { pieces, closed, ends } = rig()
   pieces.want([1, 2].map(piece))
   pieces.want([2].map(piece))
@@ -50,7 +50,7 @@ it('gives up what is wanted no more, and hears nothing of it', async () => {
   expect(pieces.get(piece(1))).toBeUndefined()
 })
 
-it('keeps what it has, up to so many bytes, and never gives up what is wanted', async () => {
+it('caches pieces up to a number of bytes, and never drops a wanted one', async () => {
   const { pieces, asked, ends } = rig(450)
   for (const from of [1, 2, 3]) {
     pieces.want([piece(from)])
@@ -63,7 +63,7 @@ it('keeps what it has, up to so many bytes, and never gives up what is wanted', 
   expect(asked).toEqual([1, 2, 3, 1])
 })
 
-it('tells a fault, and tries again when asked or when it is wanted anew', async () => {
+it('reports a fault, and retries on request or when wanted again', async () => {
   const { pieces, asked, ends } = rig()
   pieces.want([piece(1)])
   await ends.get(1)!.fail()

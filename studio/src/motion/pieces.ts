@@ -1,7 +1,7 @@
 import { frameBytes } from './frames'
 import type { MotionSource, OpenedMotion } from './source'
 
-/** A piece of a recording, in ms of annotation time, in a character's joints where one is named. */
+/** A piece of a recording, in ms of annotation time, in a character's joints if one is named. */
 export interface Piece {
   readonly recording: string
   readonly from: number
@@ -10,7 +10,7 @@ export interface Piece {
 }
 export const keyOf = ({ recording, from, to, character = '' }: Piece): string => `${from}..${to} ${character} ${recording}`
 
-/** A piece that has come, or why it did not. */
+/** A loaded piece, or the fault that prevented it. */
 export type Come =
   { readonly source: MotionSource; readonly motion: OpenedMotion; readonly fault?: undefined } | { readonly fault: unknown; readonly motion?: undefined }
 
@@ -18,15 +18,15 @@ const kAtOnce = 4
 const kMostBytes = 48e6
 
 /**
- * Fetches many short pieces for those who look at some of them: what is wanted is told as a whole, what is wanted no more is given
- * up, and what was fetched is kept as long as there is room.
+ * Fetches many short pieces of which some are visible: the set of wanted pieces is given as a whole, others in progress are cancelled, and fetched ones are
+ * cached as long as there is room.
  */
 export class Pieces {
-  /** Called as soon as a wanted piece has come, or is known not to come. */
+  /** Called as soon as a wanted piece has loaded or failed. */
   onCome?: (key: string) => void
   private wanted = new Map<string, Piece>()
   private readonly going = new Map<string, MotionSource>()
-  /** The longest unused first. */
+  /** The least recently used first. */
   private readonly come = new Map<string, Come & { readonly bytes: number }>()
   private bytes = 0
 
@@ -35,7 +35,7 @@ export class Pieces {
     private readonly most = kMostBytes,
   ) {}
 
-  /** What is wanted now, in the order in which it should come; all else that is under way is given up. */
+  /** Sets the wanted pieces in the order in which they should arrive; all others in progress are cancelled. */
   want(pieces: readonly Piece[]): void {
     this.wanted = new Map(pieces.map((piece) => [keyOf(piece), piece]))
     for (const [key, source] of this.going) {
@@ -49,7 +49,7 @@ export class Pieces {
       this.come.delete(key)
       this.come.set(key, here)
     }
-    // A fault is told as long as somebody looks, and then tried again.
+    // A fault is reported as long as its piece is wanted; later the piece is fetched again.
     for (const [key, { fault }] of this.come) if (fault !== undefined && !this.wanted.has(key)) this.forget(key)
     this.start()
   }
@@ -58,7 +58,7 @@ export class Pieces {
     return this.come.get(keyOf(piece))
   }
 
-  /** Fetches once more what did not come. */
+  /** Fetches a failed piece again. */
   retry(piece: Piece): void {
     this.forget(keyOf(piece))
     this.start()

@@ -1,6 +1,6 @@
 import type { Skeleton } from './skeleton'
 
-/** One moment of a motion, owned. Made once and filled again for every picture, so that drawing allocates nothing. */
+/** One moment of a motion, owned. Created once and refilled for every frame, so that drawing allocates nothing. */
 export interface Pose {
   /** [4 · joint], x y z w, unit length, relative to the parent. */
   readonly rotations: Float32Array

@@ -6,21 +6,21 @@ import { rigOf } from './frames_body'
 import { FrameStore } from './frame_store'
 import type { MotionSource, OpenedMotion } from './source'
 
-/** Seconds of the first piece: short, so that the first picture does not wait; the pieces then grow. */
+/** Seconds of the first piece: short, so that the first frame does not wait; later pieces are longer. */
 const kFirstPiece = 0.25
 const kLongestPiece = 4
-/** Seconds behind the picture's time that are fetched before anything else. */
+/** Seconds after the current time that are fetched before anything else. */
 const kAhead = 20
-/** Bytes of frames that are kept; of a longer recording what is far from the picture is given up and fetched again when wanted. */
+/** Bytes of frames stored; of a longer recording, frames far from the current time are dropped and fetched again when needed. */
 const kMostBytes = 160e6
 
-/** The frames [first, end) that should be asked for next. */
+/** Returns the frames [first, end) to request next. */
 export function nextPiece(missing: number, length: number, rate: number, pieces: number): { first: number; end: number } {
   const seconds = Math.min(kLongestPiece, kFirstPiece * 2 ** pieces)
   return { first: missing, end: Math.min(length, missing + Math.max(1, Math.round(seconds * rate))) }
 }
 
-/** A recording, fetched in pieces: first around where the picture is, then all the rest. */
+/** A recording, fetched in pieces: first around the current time, then all the rest. */
 export class RecordingSource implements MotionSource {
   readonly title: string
   readonly grows = false
@@ -33,7 +33,7 @@ export class RecordingSource implements MotionSource {
   private info!: RecordingInfo
   private opened?: OpenedMotion
 
-  /** `character` names the one whose joints the poses are for; the picture starts at `startSeconds` from frame 0. */
+  /** `character` names the character whose joints the poses are for; playback starts at `startSeconds` from frame 0. */
   constructor(
     private readonly api: Api,
     private readonly database: string,
@@ -77,7 +77,7 @@ export class RecordingSource implements MotionSource {
       const { first, end } = nextPiece(missing, store.length, store.rate, pieces)
       try {
         await this.fetch(first, end)
-        // An answer that brings nothing new would be asked for again, for ever.
+        // An answer without new frames would be requested again endlessly.
         if (!store.has(first)) throw new StudioFault('framesMissing', `${first}–${end}`)
         faults = 0
         store.keepAround(Math.floor(this.wanted * store.rate), Math.floor(kMostBytes / frameBytes(store.skeleton)))
@@ -91,7 +91,7 @@ export class RecordingSource implements MotionSource {
     }
   }
 
-  /** The frame that should come next: one that the picture needs soon, else one that never came; none where all is there. */
+  /** Returns the frame to fetch next: one needed for playback soon, otherwise one that never arrived; undefined if all are loaded. */
   private missing(store: FrameStore): number | undefined {
     const at = Math.max(0, Math.floor(this.wanted * store.rate))
     const next = store.firstMissing(at)

@@ -6,35 +6,35 @@ import { rigOf } from './frames_body'
 import type { MotionSource, OpenedMotion } from './source'
 import type { Rig } from './skeleton'
 
-/** Seconds of a live stream that are kept. */
+/** Seconds of a live stream that are stored. */
 const kKept = 600
 
-/** An utterance signed live over the WebSocket of docs/stream.md: at the pace of the signing, then a living rest. */
+/** An utterance signed live over the WebSocket of docs/stream.md: in real time, followed by a living rest. */
 export class StreamSource implements MotionSource {
   readonly grows = true
   readonly complete = false
   onProgress?: (complete: boolean) => void
   onFault?: (fault: Error) => void
-  /** A gloss whose stroke begins at a frame, or none where the signer goes to rest. */
+  /** Called with the gloss whose stroke begins at a frame; without a gloss if the signer returns to rest. */
   onPlace?: (frame: number, gloss?: string) => void
-  /** Something was refused or left out, and the stream goes on. */
+  /** Something was refused or skipped, and the stream continues. */
   onNotice?: (fault: Error) => void
-  /** Frames that the server left out because this page was slow. */
+  /** Frames that the server skipped because this page was slow. */
   leftOut = 0
   private socket?: WebSocket
   private header?: FramesHeader
   private store?: FrameStore
-  /** Frames that came while the rig was still asked for. */
+  /** Frames that arrived while the rig was still being fetched. */
   private waiting: FrameBlock[] = []
   private over = false
   private appended = 0
 
-  /** Utterances that were appended and not answered yet, by the id that they were sent with. */
+  /** Appended utterances that are not answered yet, by the id with which they were sent. */
   private readonly asked = new Map<string, { resolve: () => void; reject: (fault: Error) => void }>()
 
   /**
-   * `title` is signed first; with `resting`, a recording, nothing is, and its signer rests until something is. `how` is what else
-   * `open` takes: `transition`, `duration`, `tempo`, `align`, `rate`.
+   * `title` is signed first; with `resting`, a recording, nothing is, and its signer rests until something is. `how` holds the other parameters of `open`:
+   * `transition`, `duration`, `tempo`, `align`, `rate`.
    */
   constructor(
     private readonly api: Api,
@@ -58,14 +58,14 @@ export class StreamSource implements MotionSource {
         this.send({ ...this.how, type: 'open', pace: 'live', idle: 'rest', batch: 2, character: this.character, recording: this.resting })
         if (this.resting === undefined) this.sign(this.title)
       }
-      // A socket that fails tells no reason to a page, and closes.
+      // A failed socket gives the page no reason, and closes.
       socket.onclose = ({ reason, code }) => {
         if (!this.over) fail(this.header ? new StudioFault('streamClosed', reason || String(code)) : new StudioFault('streamRefused', reason))
       }
       socket.onmessage = ({ data }: MessageEvent<string | ArrayBuffer>) => {
         if (this.over) return
         try {
-          if (typeof data === 'string') this.told(JSON.parse(data), fail)
+          if (typeof data === 'string') this.handle(JSON.parse(data), fail)
           else if (this.header) this.take(decodeMessage(data, this.header.frame_bytes), this.header, resolve, fail)
         } catch (fault) {
           fail(fault as Error)
@@ -74,12 +74,12 @@ export class StreamSource implements MotionSource {
     })
   }
 
-  /** Another utterance instead of what is left, going over from where the signer is. */
+  /** Replaces the rest of the queue by another utterance, with a transition from the current pose. */
   sign(utterance: string): void {
     this.send({ type: 'sign', utterance })
   }
 
-  /** An utterance after what is left. Resolves when the server will sign it, rejects with its own line where it will not. */
+  /** Appends an utterance to the queue. Resolves when the server accepts it, rejects with its message if it does not. */
   append(utterance: string): Promise<void> {
     return new Promise((resolve, reject) => {
       if (this.socket?.readyState !== WebSocket.OPEN) return reject(new StudioFault('streamClosed'))
@@ -116,7 +116,7 @@ export class StreamSource implements MotionSource {
     resolve({ store, rig, character: header.character, originMs: 0, declarations: declarationsOf(header) })
   }
 
-  /** A stream does not tell which joint plays which part; a frame of the recording does, in the same joints. */
+  /** A stream does not contain the rig map; a frame of the recording does, in the same joints. */
   private async rig(recording: string): Promise<Rig> {
     const { clock_origin_ms: from } = await this.api.recording(this.database, recording)
     let rig: Rig = {}
@@ -124,7 +124,7 @@ export class StreamSource implements MotionSource {
     return rig
   }
 
-  private told(message: { type: string; frame?: number } & Record<string, unknown>, fail: (fault: Error) => void): void {
+  private handle(message: { type: string; frame?: number } & Record<string, unknown>, fail: (fault: Error) => void): void {
     const { type, frame = 0 } = message
     const asked = this.asked.get(String(message.id))
     if (asked) {
@@ -135,7 +135,7 @@ export class StreamSource implements MotionSource {
       this.header = message as unknown as FramesHeader
     } else if (type === 'error') {
       const fault = errorOf(message as unknown as Refusal, 0)
-      // Before the first frame there is nothing else to come; later the stream goes on.
+      // Before the first frame the fault is final; later the stream continues.
       if (this.header) this.onNotice?.(fault)
       else fail(fault)
     } else if (type === 'place') this.onPlace?.(frame, String(message.gloss))

@@ -4,7 +4,7 @@ import { rigOf, type FrameTaker } from './frames_body'
 import { FrameStore } from './frame_store'
 import type { OpenedMotion } from './source'
 
-/** The motion that a call answers, when all its frames have come. */
+/** Resolves with the motion that a call answers when all its frames have arrived. */
 export async function wholeMotion(call: (taker: FrameTaker) => Promise<void>): Promise<OpenedMotion> {
   let opened: OpenedMotion | undefined
   await call({

@@ -5,10 +5,10 @@ import { kViews, type View } from '../viewer/camera'
 import type { Transport } from '../viewer/transport'
 import { kDrawn, type Wardrobe } from '../viewer/wardrobe.svelte'
 
-/** What keys and buttons of a player act on. */
+/** The objects on which the keys and buttons of a player act. */
 export interface ActedOn {
   readonly transport: Transport
-  /** The tier that signs are found on, and the annotation time of frame 0. */
+  /** The tier used to find signs, and the annotation time of frame 0. */
   readonly tier?: Tier
   readonly originMs: number
   readonly viewer?: {
@@ -25,7 +25,7 @@ export interface ActedOn {
 
 const kTurn = Math.PI / 24
 
-/** Does what a key or a button of a player stands for. */
+/** Performs the action of a key or a button of a player. */
 export function act(action: Action, { transport, tier, originMs, viewer, timeline, wardrobe, fullscreen }: ActedOn): void {
   const ms = transport.time * 1000 + originMs
   const jump = (direction: 1 | -1) => {

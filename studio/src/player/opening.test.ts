@@ -2,7 +2,7 @@ import { expect, it } from 'vitest'
 import type { MotionSource, OpenedMotion } from '../motion/source'
 import { Worn } from './opening'
 
-/** A source that opens when told to. */
+/** A source that opens on command. */
 function source(name: string, events: string[]) {
   let ready!: () => void, broken!: (fault: Error) => void
   const opened = new Promise<OpenedMotion>((resolve, reject) => ((ready = () => resolve({} as OpenedMotion)), (broken = reject)))
@@ -27,13 +27,13 @@ function wearing() {
   return { events, made, worn, settled }
 }
 
-it('keeps what is shown until the same is there in other joints', async () => {
+it('keeps the current motions until the same are open in other joints', async () => {
   const { events, made, worn, settled } = wearing()
   await settled()
   made.get('a')!.ready()
   await settled()
   worn.wear('b')
-  worn.wear('c') // nobody waits for b any more
+  worn.wear('c') // b is no longer needed
   made.get('b')!.ready()
   await settled()
   expect(events).toEqual(['shown a', 'closed b'])
@@ -49,7 +49,7 @@ it('keeps what is shown until the same is there in other joints', async () => {
   expect(events.slice(6)).toEqual(['closed c'])
 })
 
-it('says why there is nothing, and nothing at all once it was given up', async () => {
+it('reports a failure, and nothing once closed', async () => {
   const { events, made, settled } = wearing()
   await settled()
   made.get('a')!.broken(new Error('no a'))

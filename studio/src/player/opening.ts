@@ -1,7 +1,7 @@
 import type { MotionSource } from '../motion/source'
 import type { Strand } from '../viewer/showing'
 
-/** Motions that are opened together, in one character's joints, and given up together. */
+/** Motions opened together, in one character's joints, and closed together. */
 export class Opening {
   private readonly sources: MotionSource[] = []
 
@@ -23,7 +23,7 @@ export class Opening {
   }
 }
 
-/** What becomes of opening: `shown` has what there is now, `note` what went wrong beside it, `fail` why there is nothing. */
+/** Callbacks for the outcome: `shown` receives the opened motions, `note` a fault of an additional part, `fail` why there is nothing. */
 export interface Openings<Opened> {
   readonly open: (opening: Opening) => Promise<Opened>
   readonly shown: (opened: Opened) => void
@@ -32,7 +32,7 @@ export interface Openings<Opened> {
   readonly fail: (fault: unknown) => void
 }
 
-/** Motions in one character's joints, and the same being opened in another's: what is shown stays until they are there. */
+/** Motions in one character's joints, and possibly the same being opened in another's: the current ones stay until those are ready. */
 export class Worn<Opened> {
   closed = false
   private current?: Opening

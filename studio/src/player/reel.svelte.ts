@@ -4,13 +4,13 @@ import type { Showing, Strand } from '../viewer/showing'
 import { Transport } from '../viewer/transport'
 import { Worn } from './opening'
 
-const kTellMs = 200
+const kProgressMs = 200
 
-/** A source to be shown, and as what. The first is the one that the transport's time is of. */
+/** A source to be shown, and its role. The transport's time is that of the first one. */
 export interface ReelSource {
   readonly role: Strand['role']
   readonly source: MotionSource
-  /** From the first's time to this one's; the same where not given. Asked for when all are open. */
+  /** Maps the first motion's time to this one's; identity by default. Called when all are open. */
   readonly timeOf?: (first: Strand, own: Strand) => (seconds: number) => number
 }
 
@@ -19,23 +19,23 @@ interface Opened {
   readonly times: ReadonlyMap<Strand, (seconds: number) => number>
 }
 
-/** Motions that are shown together for as long as somebody looks at them, without annotation of their own. */
+/** Motions shown together temporarily, without their own annotation. */
 export class Reel implements Showing {
   readonly transport = new Transport()
   status = $state<'opening' | 'open' | 'failed'>('opening')
   /** Why there is nothing to show. */
   fault = $state.raw<unknown>()
-  /** What went wrong beside what is shown; the newest. */
+  /** The newest fault of an additional part. */
   trouble = $state.raw<unknown>()
   strands = $state.raw<readonly Strand[]>([])
   arrivals = $state(0)
-  /** One for each motion that is shown. */
+  /** One for each motion shown. */
   declarations = $state.raw<readonly Declarations[]>([])
   private readonly worn: Worn<Opened>
-  private told = 0
+  private lastProgress = 0
   private times: Opened['times'] = new Map()
 
-  /** `sources` makes them in a character's joints (none: the recordings' own). Several may be told one at a time: close the reel before. */
+  /** `sources` creates them in a character's joints (undefined: the recordings' own). A reel shows one set of sources; close it before the next. */
   constructor(
     private readonly sources: (character: string | undefined) => readonly ReelSource[],
     character: Promise<string | undefined>,
@@ -61,7 +61,7 @@ export class Reel implements Showing {
     return this.times.get(strand) ?? ((seconds) => seconds)
   }
 
-  /** The same motions in another character's joints; what is shown stays until they are there. */
+  /** Reopens the motions in another character's joints; the current ones stay until these are ready. */
   wear(character: string | undefined): void {
     this.worn.wear(character)
   }
@@ -84,8 +84,8 @@ export class Reel implements Showing {
 
   private progress(source: MotionSource): void {
     const now = performance.now()
-    if (!source.complete && now - this.told < kTellMs) return
-    this.told = now
+    if (!source.complete && now - this.lastProgress < kProgressMs) return
+    this.lastProgress = now
     ++this.arrivals
   }
 }

@@ -3,7 +3,7 @@ import type { Api } from '../api/client'
 import { ApiError } from '../api/fault'
 import type { AnnotationDocument } from '../annotation/document'
 import { readEaf } from '../annotation/eaf'
-import { beside, stepsOfSigns, type Steps } from '../motion/in_step'
+import { correspondingTime, stepsOfSigns, type Steps } from '../motion/in_step'
 import { MadeSource } from '../motion/made_source'
 import { RecordingSource } from '../motion/recording_source'
 import type { Declarations } from '../motion/declarations'
@@ -15,47 +15,47 @@ import { Transport } from '../viewer/transport'
 import { Worn, type Opening } from './opening'
 import { SignedPlaces } from './signed_places.svelte'
 
-/** What the player can show. */
+/** The routes that the player can show. */
 export type Shown = Extract<Route, { page: 'recording' | 'sign' | 'edit' }>
 export const isShown = (route: Route): route is Shown => route.page === 'recording' || route.page === 'sign' || route.page === 'edit'
 
-const kTellMs = 200
+const kProgressMs = 200
 const kEmpty: AnnotationDocument = { tiers: [] }
 
-/** Opens what a route asks for, and keeps what the player shows of it. Nothing here is touched for every picture. */
+/** Opens what a route specifies, and holds what the player shows of it. Nothing here runs for every frame. */
 export class Session implements Showing {
   readonly transport = new Transport()
   status = $state<'opening' | 'open' | 'failed'>('opening')
   /** Why there is nothing to show. */
   fault = $state.raw<unknown>()
-  /** What went wrong beside what is shown; the newest. */
+  /** The newest fault of an additional part. */
   trouble = $state.raw<unknown>()
   strands = $state.raw<readonly Strand[]>([])
-  /** The strand that the transport's time and the timeline are of. */
+  /** The strand that the transport's time and the timeline belong to. */
   main = $state.raw<Strand | undefined>()
   document = $state.raw<AnnotationDocument>(kEmpty)
-  /** Films that the recording's annotation links. */
+  /** Videos linked by the recording's annotation. */
   media = $state.raw<readonly MediaRow[]>([])
-  /** Whether the annotation has come, or is known not to come. */
+  /** Whether the annotation is loaded, or known to be unavailable. */
   annotated = $state(false)
-  /** One for each motion that is shown. */
+  /** One for each motion shown. */
   declarations = $state.raw<readonly Declarations[]>([])
-  /** Rises as pieces of the main motion come, at most five times a second. */
+  /** Increases as pieces of the main motion arrive, at most five times a second. */
   arrivals = $state(0)
   complete = $state(false)
   leftOut = $state(0)
-  /** Pairs the strands sign by sign; else by time. */
+  /** Synchronizes the strands sign by sign; otherwise by time. */
   bySign = $state(true)
   private readonly worn: Worn<{ strands: readonly Strand[]; main: Strand }>
   private steps = $state.raw<Steps | undefined>()
-  /** Of an edit, the annotation of the recording that was edited. */
+  /** For an edit, the annotation of the recording that was edited. */
   original = $state.raw<AnnotationDocument>(kEmpty)
   private originalRead?: Promise<void>
-  /** Of a live stream. */
+  /** For a live stream. */
   readonly signed = new SignedPlaces()
-  private told = 0
+  private lastProgress = 0
 
-  /** `character` names whose joints the poses are for; none for the recordings' own. */
+  /** `character` names the character whose joints the poses are for; undefined for the recordings' own. */
   constructor(
     private readonly api: Api,
     readonly shown: Shown,
@@ -75,34 +75,34 @@ export class Session implements Showing {
     this.annotateAll()
   }
 
-  /** The time of a strand beside a time of the main one, both in seconds from frame 0. */
+  /** Returns the mapping from the main strand's time to a strand's time, both in seconds from frame 0. */
   timeOf(strand: Strand): (seconds: number) => number {
     if (strand.source === this.main?.source) return (seconds) => seconds
-    return (seconds) => (this.steps && this.bySign ? beside(this.steps, seconds) : seconds)
+    return (seconds) => (this.steps && this.bySign ? correspondingTime(this.steps, seconds) : seconds)
   }
 
   get inSteps(): boolean {
     return this.steps !== undefined
   }
 
-  /** The gloss that a live stream signs at a time. */
+  /** Returns the gloss that a live stream signs at a time. */
   liveGloss(seconds: number): string | undefined {
     return this.signed.glossAt(seconds * (this.main?.motion.store.rate ?? 1))
   }
 
-  /** Signs this next, where a stream is live. */
+  /** Signs this next, if a stream is live. */
   signNext(utterance: string): void {
     this.trouble = undefined
     const { source } = this.main ?? {}
     if (source instanceof StreamSource) source.sign(utterance)
   }
 
-  /** Says where the picture is, so that each motion fetches what it needs next. */
+  /** Sets the current time, so that each motion fetches what it needs next. */
   want(seconds: number): void {
     for (const strand of this.strands) strand.source.want?.(this.timeOf(strand)(seconds))
   }
 
-  /** The same motions in another character's joints; what is shown stays until they are there. */
+  /** Reopens the motions in another character's joints; the current ones stay until these are ready. */
   wear(character: string | undefined): void {
     this.worn.wear(character)
   }
@@ -117,7 +117,7 @@ export class Session implements Showing {
     const { character } = opening
     const recorded = (name: string) => new RecordingSource(api, database, name, character, this.transport.time)
     if (shown.page === 'recording') {
-      // What stands beside may be wrong without the recording being so.
+      // The second recording may fail without affecting the first.
       const other = shown.beside ? opening.strand('beside', recorded(shown.beside)).catch((fault: unknown) => this.note(fault)) : undefined
       const [main, second] = await Promise.all([opening.strand('only', recorded(shown.recording)), other])
       return { strands: second ? [main, second] : [main], main }
@@ -146,7 +146,7 @@ export class Session implements Showing {
     return source
   }
 
-  /** Which sign of the original stands beside which sign that was made of it. */
+  /** Pairs the signs of the original with the signs made from them. */
   private async pair(left: Strand, made: Strand): Promise<void> {
     if (this.shown.page !== 'edit' || this.shown.swap || this.steps) return
     const signs = made.motion.signs ?? []
@@ -174,13 +174,13 @@ export class Session implements Showing {
     else void this.annotate(api.madeAnnotation(database, 'sign', bodyOf(shown)))
   }
 
-  /** Motion without annotation is fine; that it could not be had is told. */
+  /** A missing annotation is fine; a failure to load one is reported. */
   private async annotate(eaf: Promise<string>): Promise<void> {
     try {
       const read = readEaf(await eaf)
       if (!this.worn.closed) this.document = read
     } catch (fault) {
-      // What cannot be signed is told by the motion, which is refused alike.
+      // If the signing is impossible, the motion's request reports it, because it is refused for the same reason.
       if (!(fault instanceof ApiError && (fault.status === 404 || fault.status === 400))) this.note(fault)
     }
     this.annotated = true
@@ -200,7 +200,7 @@ export class Session implements Showing {
     if (first && this.shown.page === 'sign') this.transport.play()
   }
 
-  /** Selects a span of annotation time, and goes to its begin where no other time was asked for. */
+  /** Selects a span of annotation time, and seeks to its begin unless another time was specified. */
   private select([from, to]: readonly [number, number], at: number): void {
     const { originMs } = this.main!.motion
     this.transport.setLoop((from - originMs) / 1000, (to - originMs) / 1000)
@@ -218,10 +218,10 @@ export class Session implements Showing {
       if (source instanceof StreamSource) this.leftOut = source.leftOut
       if (source.complete) this.complete = true
     }
-    // Frames of a stream come fifty times a second; what hangs on this need not be drawn anew so often.
+    // Frames of a stream arrive fifty times a second; what depends on them need not be redrawn so often.
     const now = performance.now()
-    if (!source.complete && this.told > 0 && now - this.told < kTellMs) return
-    this.told = now
+    if (!source.complete && this.lastProgress > 0 && now - this.lastProgress < kProgressMs) return
+    this.lastProgress = now
     ++this.arrivals
   }
 
@@ -230,7 +230,7 @@ export class Session implements Showing {
   }
 }
 
-/** The parameters of the call that makes what is shown. */
+/** Returns the parameters of the call that generates the motion. */
 function bodyOf(shown: Extract<Shown, { page: 'sign' | 'edit' }>): object {
   if (shown.page === 'sign') return { utterance: shown.utterance }
   return { recording: shown.recording, ...(shown.swap ? { swap: shown.swap } : { replace: shown.replace }) }

@@ -1,11 +1,11 @@
 const kMost = 2000
 const kRecent = 20
 
-/** Which gloss a live stream signs, and from which frame on. */
+/** The glosses that a live stream signs, with their first frames. */
 export class SignedPlaces {
-  /** Where the last glosses begin, as `VANNES@27 MATIN@140`: it stays, when a slow page has drawn no picture of them. */
+  /** The begins of the last glosses, such as `VANNES@27 MATIN@140`; also contains those of which a slow page drew no frame. */
   recent = $state('')
-  /** In order; none of a rest. */
+  /** In order; without a gloss for a rest. */
   private readonly places: { readonly frame: number; readonly gloss?: string }[] = []
 
   push(frame: number, gloss?: string): void {

@@ -1,7 +1,7 @@
 import { expect, it } from 'vitest'
 import { SignedPlaces } from './signed_places.svelte'
 
-it('knows what is signed at a frame, and nothing at rest', () => {
+it('returns the gloss signed at a frame, and nothing at rest', () => {
   const places = new SignedPlaces()
   places.push(27, 'VANNES')
   places.push(140)
@@ -13,7 +13,7 @@ it('knows what is signed at a frame, and nothing at rest', () => {
   expect(places.recent).toBe('')
 })
 
-it('forgets the oldest of very many, and tells the last few', () => {
+it('forgets the oldest of very many, and lists the last few', () => {
   const places = new SignedPlaces()
   for (let i = 0; i <= 2000; ++i) places.push(i, `G${i}`)
   expect(places.glossAt(999)).toBe(undefined)

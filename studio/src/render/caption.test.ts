@@ -2,14 +2,14 @@ import { expect, it } from 'vitest'
 import { fr } from '../text/fr'
 import { captionOf, linesOf } from './caption'
 
-it('a caption has each thing once, and says where the face is neutral', () => {
+it('a caption contains each part once, and says if the face is neutral', () => {
   expect(captionOf({ a: 'shapes', b: 'shapes' }, true)).toEqual(['shapes'])
   expect(captionOf({ a: 'shapes' }, false, ['a drawn body'])).toEqual(['shapes', 'No face captured: the face is neutral', 'a drawn body'])
   expect(captionOf({}, true)).toEqual([])
   expect(captionOf({}, false, [], fr)).toEqual(['Visage non capté\u202f: il reste neutre'])
 })
 
-it('a caption that is too wide goes on in further lines, and loses no word', () => {
+it('a caption that is too wide continues on further lines, and loses no word', () => {
   const measure = (text: string) => text.length
   expect(linesOf(['one', 'two'], 20, measure)).toEqual(['one  ·  two'])
   expect(linesOf(['one two', 'three'], 12, measure)).toEqual(['one two', 'three'])

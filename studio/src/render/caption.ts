@@ -1,12 +1,12 @@
 import type { Declarations } from '../motion/declarations'
 import { en, type Text } from '../text/en'
 
-/** What stands at the bottom of every picture: what the recordings say of themselves, and what is not as it was captured. */
+/** Returns the parts of the caption of every frame: the recordings' declarations, and what is not as captured. */
 export function captionOf(declarations: Declarations, hasFace: boolean, notes: readonly string[] = [], text: Text = en): readonly string[] {
   return [...new Set([...Object.values(declarations).map(String), ...(hasFace ? [] : [text.neutralFace]), ...notes])]
 }
 
-/** Words put into lines of at most `width`, as `measure` measures them; what belongs together stays so where it can. */
+/** Breaks words into lines of at most `width`, as `measure` measures them; parts stay on one line if possible. */
 export function linesOf(parts: readonly string[], width: number, measure: (text: string) => number): string[] {
   const lines: string[] = []
   let line = ''
@@ -23,13 +23,13 @@ export function linesOf(parts: readonly string[], width: number, measure: (text:
   return line ? [...lines, line] : lines
 }
 
-/** The bottom of a picture, drawn once. */
+/** The caption of a frame, drawn once. */
 export interface Caption {
   readonly picture: OffscreenCanvas
   readonly height: number
 }
 
-/** Draws a caption for pictures of this size; none where there is nothing to say. */
+/** Draws a caption for frames of this size; undefined if there is no text. */
 export function drawCaption(parts: readonly string[], width: number, height: number): Caption | undefined {
   if (parts.length === 0) return undefined
   const size = Math.max(11, Math.round(0.029 * Math.min(height, (9 / 16) * width)))
@@ -56,7 +56,7 @@ export function drawCaption(parts: readonly string[], width: number, height: num
   return { picture, height: picture.height }
 }
 
-/** A sign that says "mind this", its middle at (left + size / 2, middle). */
+/** Draws a warning triangle with its middle at (left + size / 2, middle). */
 function triangle(context: OffscreenCanvasRenderingContext2D, left: number, middle: number, size: number): void {
   context.fillStyle = '#ffb454'
   context.beginPath()

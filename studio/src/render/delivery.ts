@@ -1,37 +1,37 @@
-import { wordsOf } from '../api/fault'
+import { messageOf } from '../api/fault'
 import { en } from '../text/en'
 
-/** Between two words on progress, ms. */
+/** Ms between two progress reports. */
 const kProgressMs = 500
 
-/** What is put at the end of a render. */
+/** The summary sent at the end of a render. */
 export interface Done {
   readonly frames: number
   readonly seconds: number
   readonly codec: string
 }
 
-/** Puts what was rendered to the server that asked for it, one thing after the other. After `done` or `fault` nothing more goes out. */
+/** Sends results to the server that requested them, one after the other. After `done` or `fault` nothing more is sent. */
 export class Delivery {
   private over = false
-  /** When a word on progress was last taken, ms of the page's clock; none while one is on its way. */
-  private told: number | undefined = -Infinity
+  /** When the last progress report was accepted, in ms of the page's clock; undefined while one is being sent. */
+  private lastReport: number | undefined = -Infinity
   private queue: Promise<unknown> = Promise.resolve()
 
   constructor(private readonly put: string) {}
 
-  /** One file; resolves when the server has it, and rejects with what the server says where it did not take it. */
+  /** Sends one file; resolves when the server has it, and rejects with the server's message if refused. */
   async file(name: string, body: Blob | ArrayBuffer): Promise<void> {
     if (!this.over) await this.send(name, body)
   }
 
-  /** Says how far it is, where that was not said in the last half second. */
+  /** Reports the progress, unless it was reported in the last half second. */
   progress(done: number, of: number): void {
-    if (this.over || this.told === undefined || performance.now() - this.told < kProgressMs) return
-    this.told = undefined
+    if (this.over || this.lastReport === undefined || performance.now() - this.lastReport < kProgressMs) return
+    this.lastReport = undefined
     this.send('progress', JSON.stringify({ done, of }))
       .catch((fault: unknown) => this.fault(fault))
-      .finally(() => (this.told = performance.now()))
+      .finally(() => (this.lastReport = performance.now()))
   }
 
   async done(what: Done): Promise<void> {
@@ -40,12 +40,12 @@ export class Delivery {
     try {
       await this.send('done', JSON.stringify(what))
     } catch (fault) {
-      this.over = false // so that it can be told
+      this.over = false // so that the fault can be reported
       throw fault
     }
   }
 
-  /** Ends the render with one plain line. */
+  /** Ends the render with a one-line message. */
   fault(fault: unknown): void {
     if (this.over) return
     this.over = true
@@ -66,16 +66,16 @@ export class Delivery {
 
   private async fetch(name: string, body: Blob | ArrayBuffer | string): Promise<void> {
     const response = await fetch(`${this.put}/${name}`, { method: 'PUT', body }).catch(() => undefined)
-    if (!response) throw new Error(`the server did not take ${name}: it does not answer`)
+    if (!response) throw new Error(`the server did not accept ${name}: it does not answer`)
     if (response.ok) return
     const said = await response.text().catch(() => '')
-    throw new Error(`the server did not take ${name}: ${messageIn(said) ?? `status ${response.status}`}`)
+    throw new Error(`the server did not accept ${name}: ${messageIn(said) ?? `status ${response.status}`}`)
   }
 }
 
-/** A fault as one line, never empty. */
+/** Returns a fault as one line, never empty. */
 export function lineOf(fault: unknown): string {
-  return wordsOf(fault, en).replace(/\s+/g, ' ').trim() || 'something went wrong that has no name'
+  return messageOf(fault, en).replace(/\s+/g, ' ').trim() || 'an unknown fault'
 }
 
 function messageIn(body: string): string | undefined {

@@ -9,9 +9,9 @@ import { captionOf, drawCaption, type Caption } from './caption'
 import { sightsOf, type Sight } from './sight'
 import type { RenderRequest } from './request'
 
-/** Draws the pictures of one motion, each from its moment alone, on a canvas of exactly the size that was asked for. */
+/** Draws the frames of one motion, each from its moment alone, on a canvas of exactly the requested size. */
 export class Drawing {
-  /** Holds the picture that was drawn last. */
+  /** Holds the last frame drawn. */
   readonly canvas: OffscreenCanvas
   private readonly context: OffscreenCanvasRenderingContext2D
   private readonly ground: OffscreenCanvas
@@ -39,7 +39,7 @@ export class Drawing {
     renderer.setScissorTest(true)
   }
 
-  /** Dresses the signer and finds the camera's place; all frames must be there. `text` is the language of what is written beneath. */
+  /** Loads the character and positions the camera; all frames must be loaded. `text` is the language of the caption. */
   static async of(api: Api, motion: OpenedMotion, request: RenderRequest, text: Text = en): Promise<Drawing> {
     const renderer = signerRenderer(document.createElement('canvas'))
     renderer.setPixelRatio(1)
@@ -64,16 +64,16 @@ export class Drawing {
     }
   }
 
-  /** Draws a moment, in seconds from the motion's first frame. Throws where the browser has given the picture up. */
+  /** Draws a moment, in seconds from the motion's first frame. Throws if the browser has lost the graphics context. */
   draw(seconds: number): void {
     const { renderer, pane, context, canvas, caption } = this
-    if (renderer.getContext().isContextLost()) throw new Error('the browser gave the picture up: its graphics stopped')
+    if (renderer.getContext().isContextLost()) throw new Error('the browser lost the graphics context')
     pane.update(seconds)
     const part = canvas.width / this.sights.length
     this.sights.forEach((sight, k) => {
       renderer.setViewport(k * part, 0, part, canvas.height)
       renderer.setScissor(k * part, 0, part, canvas.height)
-      // The second picture of a moment has the shadows of the first.
+      // The second view of a moment reuses the shadows of the first.
       renderer.shadowMap.autoUpdate = k === 0
       renderer.render(pane.scene, sight.at(seconds))
     })
@@ -83,7 +83,7 @@ export class Drawing {
     if (caption) context.drawImage(caption.picture, 0, canvas.height - caption.height)
   }
 
-  /** Gives the graphics back: a page has few contexts, and may make another film. */
+  /** Releases the graphics context: a page has few of them, and may render another video. */
   dispose(): void {
     this.pane.dispose()
     this.renderer.dispose()
@@ -91,7 +91,7 @@ export class Drawing {
   }
 }
 
-/** The plain ground behind the signer, lightest behind the head, as in the viewer when it is dark. */
+/** Draws the plain background behind the signer, lightest behind the head, as in the viewer's dark theme. */
 function groundOf(width: number, height: number): OffscreenCanvas {
   const ground = new OffscreenCanvas(width, height)
   const context = ground.getContext('2d')!

@@ -2,14 +2,14 @@ import { BufferTarget, EncodedPacket, EncodedVideoPacketSource, Output, WebMOutp
 import { microsecondsOf } from './moments'
 import { vp9Codec } from './vp9'
 
-/** Seconds from one key frame to the next. */
+/** Seconds between key frames. */
 const kKeySeconds = 2
-/** Pictures that may wait for the encoder. */
+/** The maximum number of frames queued in the encoder. */
 const kWaiting = 3
-/** Bits for each pixel of each picture: fingers stay sharp, at 1280×720 and 30 a second some 3.3 Mbit/s at most. */
+/** Bits per pixel: keeps fingers sharp; at 1280×720 and 30 frames a second at most about 3.3 Mbit/s. */
 const kBits = 0.12
 
-/** A WebM film that grows picture by picture, each at the time that its number says and none left out. */
+/** A WebM video encoded frame by frame, each at the time given by its number, without dropping any. */
 export class Film {
   private readonly encoder: VideoEncoder
   private readonly packets: EncodedVideoPacketSource
@@ -25,7 +25,7 @@ export class Film {
     private readonly config: VideoEncoderConfig,
     private readonly rate: number,
   ) {
-    this.failed.catch(() => {}) // told by whatever waits next
+    this.failed.catch(() => {}) // reported by whatever waits next
     this.packets = new EncodedVideoPacketSource(config.codec.startsWith('vp09') ? 'vp9' : 'vp8')
     this.output.addVideoTrack(this.packets, { frameRate: rate })
     this.written = this.output.start()
@@ -35,14 +35,14 @@ export class Film {
         this.written = this.written.then(() => this.packets.add(EncodedPacket.fromEncodedChunk(chunk), about))
         this.written.catch(this.fail)
       },
-      error: (fault) => this.fail(new Error(`the film could not be encoded: ${fault.message}`)),
+      error: (fault) => this.fail(new Error(`the video could not be encoded: ${fault.message}`)),
     })
     this.encoder.configure(config)
   }
 
-  /** A film of this size at `rate` pictures a second, in VP9, or in VP8 where the browser has no VP9. */
+  /** Starts a video of this size at `rate` frames a second, in VP9, or in VP8 if the browser has no VP9. */
   static async of(width: number, height: number, rate: number): Promise<Film> {
-    if (typeof VideoEncoder === 'undefined') throw new Error('this browser cannot encode films: it has no WebCodecs')
+    if (typeof VideoEncoder === 'undefined') throw new Error('this browser cannot encode video: it lacks WebCodecs')
     for (const codec of [vp9Codec(width, height, rate), 'vp8']) {
       const config: VideoEncoderConfig = { codec, width, height, framerate: rate, bitrate: Math.round(kBits * width * height * rate), latencyMode: 'quality' }
       const { supported } = await VideoEncoder.isConfigSupported(config).catch(() => ({ supported: false }))
@@ -55,7 +55,7 @@ export class Film {
     return this.config.codec
   }
 
-  /** Takes what the canvas shows as the next picture; resolves when the encoder can take another. */
+  /** Adds the canvas content as the next frame; resolves when the encoder can take another. */
   async add(canvas: OffscreenCanvas): Promise<void> {
     const picture = this.given++
     const timestamp = microsecondsOf(picture, this.rate)
@@ -70,17 +70,17 @@ export class Film {
     }
   }
 
-  /** The film's bytes; throws where the encoder left a picture out. */
+  /** Returns the file's bytes; throws if the encoder dropped a frame. */
   async end(): Promise<ArrayBuffer> {
     await Promise.race([this.failed, this.encoder.flush()])
     this.encoder.close()
     await Promise.race([this.failed, this.written])
-    if (this.come !== this.given) throw new Error(`the encoder made ${this.come} of ${this.given} pictures`)
+    if (this.come !== this.given) throw new Error(`the encoder returned ${this.come} of ${this.given} frames`)
     await this.output.finalize()
     return this.target.buffer!
   }
 
-  /** Lets go of the encoder where the film is not wanted any more. */
+  /** Releases the encoder if the video is no longer wanted. */
   giveUp(): void {
     if (this.encoder.state !== 'closed') this.encoder.close()
   }

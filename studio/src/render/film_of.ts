@@ -6,7 +6,7 @@ import { gather } from './gather'
 import { everyMoment } from './moments'
 import type { RenderRequest } from './request'
 
-/** Makes a film in a page that does other things, too: as `signweave render` does, every picture drawn. Rejects where `signal` gives it up. */
+/** Renders a video in a page that stays responsive: like `signweave render`, with every frame. Rejects if `signal` aborts it. */
 export async function filmOf(api: Api, request: RenderRequest, progress: (done: number, of: number) => void, signal: AbortSignal, text?: Text): Promise<Blob> {
   const { width, height, rate } = request
   const motion = await gather(api, request, signal)
@@ -31,7 +31,7 @@ export async function filmOf(api: Api, request: RenderRequest, progress: (done: 
   }
 }
 
-/** Lets the page do what else there is, also where it is hidden and its timers are slow. */
+/** Yields to the page's other tasks, also while it is hidden and its timers are slow. */
 function breath(): Promise<void> {
   return new Promise((resolve) => {
     const { port1, port2 } = new MessageChannel()

@@ -15,7 +15,7 @@ const kLens = 28,
   kHeight = 720,
   kFoot = 40
 
-/** A number from 0 to 1 for each place of a row, the same every time. */
+/** Returns a pseudorandom number from 0 to 1 for each index. */
 function chance(i: number): number {
   const x = Math.sin(i * 12.9898) * 43758.5453
   return x - Math.floor(x)
@@ -35,7 +35,7 @@ describe('a framing', () => {
     return most
   }
 
-  it('holds every point, and goes as near as that allows', () => {
+  it('contains every point, as close as possible', () => {
     const stand = new Framing(kAxes, window).still({ points: 200, places }, 0)
     expect(used(stand)).toBeCloseTo(1, 5)
     expect(used({ ...stand, back: stand.back - 0.01 })).toBeGreaterThan(1)
@@ -49,7 +49,7 @@ describe('a framing', () => {
     }
   })
 
-  it('that moves holds the points of each frame, and follows softly', () => {
+  it('that moves contains the points of each frame, and follows smoothly', () => {
     const stands = new Framing(kAxes, window).moving({ points: 2, places }, 0, 5)
     expect(stands).toHaveLength(100)
     stands.forEach((stand, frame) => expect(used(stand, 2 * frame, 2 * frame + 2)).toBeLessThanOrEqual(1 + 1e-6))
@@ -58,7 +58,7 @@ describe('a framing', () => {
     expect(Math.max(...jumps)).toBeLessThan(Math.max(...unheld.slice(1).map(({ right }, i) => Math.abs(right - unheld[i].right))) / 3)
   })
 
-  it('softens by the mean and by the largest around', () => {
+  it('smooths by the mean and by the surrounding maximum', () => {
     expect(softened([0, 3, 6, 0], 1)).toEqual([1.5, 3, 3, 3])
     expect(largestAround([0, 3, 6, 0], 1)).toEqual([3, 6, 6, 6])
   })
@@ -130,13 +130,13 @@ describe('a sight', () => {
     }
   })
 
-  it('from the front has the body in the middle, and stands still', () => {
+  it('from the front centres the body, and does not move', () => {
     const [sight] = sightsOf(motion, signer, 'front', () => ({ lens: kLens, width: kWidth, height: kHeight, foot: kFoot }))
     expect(new Vector3(0, 1, 0).project(sight.at(0)).x).toBeCloseTo(0, 5)
     expect(sight.at(0).position.clone()).toEqual(sight.at(2).position.clone())
   })
 
-  it('of hands that are not known is refused', () => {
+  it('of unknown hands is rejected', () => {
     const { left_hand, right_hand, ...rig } = kRig
     expect(() => sightsOf({ ...motion, rig }, signer, 'hands', () => ({ lens: kLens, width: 1, height: 1, foot: 0 }))).toThrow('no hands')
     expect(left_hand && right_hand).toBeTruthy()

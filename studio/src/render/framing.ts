@@ -1,35 +1,35 @@
 import type { Vector3 } from 'three'
 import type { Landmarks } from './landmarks'
 
-/** The axes of a picture in model space, unit length: to its right, up, and from what is seen to the camera. */
+/** The axes of a view in model space, unit length: to its right, up, and from the subject to the camera. */
 export interface Axes {
   readonly right: Vector3
   readonly up: Vector3
   readonly back: Vector3
 }
 
-/** Where a camera stands that looks along −back: metres along the axes. */
+/** The position of a camera that looks along −back: metres along the axes. */
 export interface Stand {
   right: number
   up: number
   back: number
 }
 
-/** The part of a picture that must hold everything: how far it reaches from the middle, for a place one metre before the camera. */
+/** The part of a view that must contain everything: its half extents at a distance of one metre from the camera. */
 export interface Window {
   readonly side: number
   readonly top: number
   readonly bottom: number
 }
 
-/** What a camera of this lens (degrees, vertical) sees, less a margin, and less `foot` pixels at the bottom that a text covers. */
+/** Returns what a camera of this lens (degrees, vertical) sees, less a margin, and less `foot` pixels at the bottom that a caption covers. */
 export function windowOf(lens: number, width: number, height: number, foot: number): Window {
   const half = Math.tan((lens * Math.PI) / 360),
     margin = 0.04
   return { side: half * (width / height - margin), top: half * (1 - margin), bottom: half * Math.max(0.2, 1 - margin - (2 * foot) / height) }
 }
 
-/** How near a camera may go to what it must hold, each side by itself, so that frames can be taken together. */
+/** How close a camera may be to the points it must show, separately for each side, so that frames can be combined. */
 interface Bounds {
   left: number
   right: number
@@ -40,8 +40,8 @@ interface Bounds {
 const kNowhere: Readonly<Bounds> = { left: -Infinity, right: -Infinity, top: -Infinity, bottom: -Infinity }
 
 /**
- * A point (x, y, z) along the axes is within the window of a camera at (a, b, d) where |x − a| ≤ side · (d − z), and likewise up
- * and down. So each side gives a smallest d that falls or rises with a or b, and the best stand is where two sides meet.
+ * A point (x, y, z) along the axes is within the window of a camera at (a, b, d) if |x − a| ≤ side · (d − z), and likewise vertically. So each side gives a
+ * minimum d that falls or rises with a or b, and the best position is where two sides meet.
  */
 export class Framing {
   constructor(
@@ -50,8 +50,8 @@ export class Framing {
   ) {}
 
   /**
-   * The nearest stand that holds all points, each with `around` metres about it, in every frame: in the middle between them, or
-   * where `middle` is given, so far to the right.
+   * Returns the nearest position that contains all points, each with a radius of `around` metres, in every frame: centred between them, or with the horizontal
+   * coordinate `middle` if given.
    */
   still(marks: Landmarks, around: number, middle?: number): Stand {
     const all: Bounds = { ...kNowhere }
@@ -62,8 +62,8 @@ export class Framing {
   }
 
   /**
-   * A stand for each frame, which follows the points as softly as `smooth` frames to either side allow, looking ahead as well as
-   * back, and never lets one out of the window.
+   * Returns a position for each frame, which follows the points, smoothed over `smooth` frames to either side, looking ahead as well as back, and never loses
+   * one from the window.
    */
   moving(marks: Landmarks, around: number, smooth: number): Stand[] {
     const frames = marks.points ? marks.places.length / (3 * marks.points) : 0
@@ -82,7 +82,7 @@ export class Framing {
         smooth,
       )
     const needed = bounds.map((one, frame) => this.distance(one, rights[frame], ups[frame]))
-    // A mean of the largest values around never falls below the value itself.
+    // A mean of the surrounding maxima is never below the value itself.
     const backs = softened(largestAround(needed, smooth), smooth)
     return stands.map((_, frame) => ({ right: rights[frame], up: ups[frame], back: backs[frame] }))
   }
@@ -117,7 +117,7 @@ export class Framing {
   }
 }
 
-/** The mean of each value's neighbours up to `reach` places away; at the ends of those that there are. */
+/** Returns the mean of each value's neighbours up to `reach` indices away; at the ends, of the existing ones. */
 export function softened(values: readonly number[], reach: number): number[] {
   const sums = [0]
   for (const value of values) sums.push(sums[sums.length - 1] + value)
@@ -128,7 +128,7 @@ export function softened(values: readonly number[], reach: number): number[] {
   })
 }
 
-/** The largest of each value's neighbours up to `reach` places away. */
+/** Returns the maximum of each value's neighbours up to `reach` indices away. */
 export function largestAround(values: readonly number[], reach: number): number[] {
   return values.map((_, i) => {
     let largest = -Infinity

@@ -6,7 +6,7 @@ import { FrameStore } from '../motion/frame_store'
 import type { OpenedMotion } from '../motion/source'
 import type { RenderRequest } from './request'
 
-/** The whole motion that a request is about, every frame of it. Rejects with the server's own line where there is none. */
+/** Loads the complete motion of a request. Rejects with the server's message if there is none. */
 export async function gather(api: Api, { database, call, parameters, character }: RenderRequest, signal?: AbortSignal): Promise<OpenedMotion> {
   let motion: OpenedMotion | undefined
   const taker: FrameTaker = {
@@ -31,7 +31,7 @@ export async function gather(api: Api, { database, call, parameters, character }
   return motion!
 }
 
-/** From when to when a recording is wanted, in ms of annotation time; all of it where nothing is said. */
+/** Returns the requested span of a recording, in ms of annotation time; all of it by default. */
 async function spanOf(api: Api, database: string, parameters: RenderRequest['parameters']): Promise<{ recording: string; from: number; to: number }> {
   const { recording, from, to } = parameters as { recording: string; from?: number; to?: number }
   if (typeof from === 'number' && typeof to === 'number') return { recording, from, to }

@@ -5,24 +5,24 @@ import { chainTo, type Skeleton } from '../motion/skeleton'
 import type { OpenedMotion } from '../motion/source'
 import { Proportions } from '../viewer/proportions'
 
-/** Where what a picture must show is in each frame: [3 · (frame · points + point)], metres, model space. */
+/** Positions in each frame of what a view must show: [3 · (frame · points + point)], metres, model space. */
 export interface Landmarks {
   readonly points: number
   readonly places: Float32Array
 }
 
-/** A place that moves with a joint, `offset` metres from it in its space. */
+/** A point attached to a joint, `offset` metres from it in its space. */
 export interface Point {
   readonly joint: number
   readonly offset: Vector3
 }
 
-/** A joint itself. */
+/** Returns the point at a joint itself. */
 export function jointAlone(joint: number): Point {
   return { joint, offset: new Vector3() }
 }
 
-/** A hand: every joint of it, and the ends of the fingers. None where the rig has no such hand. */
+/** Returns the points of a hand: all its joints, and the fingertips. Empty if the rig has no such hand. */
 export function handPoints({ store, rig }: OpenedMotion, side: 'left' | 'right'): Point[] {
   const { skeleton } = store
   const wrist = rig[`${side}_hand`]?.joint ?? -1
@@ -32,7 +32,7 @@ export function handPoints({ store, rig }: OpenedMotion, side: 'left' | 'right')
   return [...joints, ...tips]
 }
 
-/** The body from the waist to above the hair; what the rig does not tell is left out. */
+/** Returns points of the body from the waist to above the hair; parts missing in the rig are left out. */
 export function bustPoints({ rig }: OpenedMotion, signer: Proportions): Point[] {
   const { up, scale } = signer
   const points: Point[] = []
@@ -45,7 +45,7 @@ export function bustPoints({ rig }: OpenedMotion, signer: Proportions): Point[] 
   return points
 }
 
-/** Follows points through all frames of a motion, which must all be there. */
+/** Computes the positions of points in all frames of a motion, which must all be loaded. */
 export function follow({ store }: OpenedMotion, points: readonly Point[]): Landmarks {
   const { skeleton, rate, length } = store
   const pose = restPose(skeleton),

@@ -6,11 +6,11 @@ import { gather } from './gather'
 import { chosenMoments, everyMoment } from './moments'
 import type { RenderRequest } from './request'
 
-/** Draws what was asked for and puts it to the server: as a film or as single pictures, one after the other, in order. */
+/** Draws the request and sends the results to the server: a video or single images, one after the other, in order. */
 export async function render(request: RenderRequest, delivery: Delivery): Promise<void> {
   const { width, height, rate, kind, at_ms } = request
   const api = new Api()
-  delivery.progress(0, 0) // a sign of life: what comes first takes longest
+  delivery.progress(0, 0) // an initial report, because the first steps take longest
   const motion = await gather(api, request)
   const { store } = motion
   const { seconds, lasts } = at_ms ? chosenMoments(store.length, store.rate, at_ms) : everyMoment(store.length, store.rate, rate)

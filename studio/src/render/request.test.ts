@@ -15,7 +15,7 @@ const kGood = {
   put: '/api/renders/a',
 }
 
-it('a request is read from behind #', () => {
+it('a request is read after #', () => {
   expect(checked(requestIn('#' + encodeURIComponent(JSON.stringify(kGood))))).toEqual(kGood)
   expect(() => requestIn('#%7b')).toThrow('no render request')
   expect(() => requestIn('#%')).toThrow('no render request')
@@ -23,7 +23,7 @@ it('a request is read from behind #', () => {
   expect(putOf(null)).toBeUndefined()
 })
 
-it('a request that is wrong is refused by what is wrong', () => {
+it('an invalid request is rejected with the invalid field', () => {
   for (const [change, line] of [
     [{ call: 'dance' }, 'call'],
     [{ parameters: {} }, 'recording'],

@@ -1,45 +1,45 @@
 export const kRenderViews = ['front', 'side', 'hands'] as const
 export type RenderView = (typeof kRenderViews)[number]
 
-/** What `signweave render` asks of the page: JSON behind `#` in its address. */
+/** The request of `signweave render` to the page: JSON after `#` in its address. */
 export interface RenderRequest {
   readonly database: string
   readonly call: 'sign' | 'edit' | 'recording'
-  /** The body of the call; of a recording its name, and from when to when in ms of annotation time. */
+  /** The body of the call; for a recording, its name and its span in ms of annotation time. */
   readonly parameters: Readonly<Record<string, unknown>>
-  /** Whose surfaces are drawn; empty for the body that the studio draws itself. */
+  /** The character drawn; empty for the studio's plain body. */
   readonly character: string
   /** Pixels. */
   readonly width: number
   readonly height: number
-  /** Pictures a second. */
+  /** Frames a second. */
   readonly rate: number
   readonly view: RenderView
   readonly kind: 'webm' | 'png'
-  /** Moments to draw, in ms from the first frame; null for every picture that `rate` asks for. */
+  /** Moments to draw, in ms from the first frame; null for every frame at `rate`. */
   readonly at_ms: readonly number[] | null
-  /** Address under which the results are put. */
+  /** The address to which the results are sent. */
   readonly put: string
 }
 
 const kMostPixels = 4096
 
-/** What stands behind `#` as JSON; throws in plain words where it is none. */
+/** Returns the JSON after `#`; throws with a readable message if it is invalid. */
 export function requestIn(hash: string): unknown {
   try {
     return JSON.parse(decodeURIComponent(hash.replace(/^#/, '')))
   } catch {
-    throw new Error('the address of this page has no render request behind #')
+    throw new Error('the address of this page contains no render request after #')
   }
 }
 
-/** Where the results of a request go, as far as it says so; it may be wrong in everything else. */
+/** Returns the address for the results of a request if it contains one, even if the rest is invalid. */
 export function putOf(request: unknown): string | undefined {
   const put = (request as { put?: unknown } | null)?.put
   return typeof put === 'string' && put.startsWith('/') ? put : undefined
 }
 
-/** Throws in plain words where a request is not one. */
+/** Throws with a readable message if a request is invalid. */
 export function checked(request: unknown): RenderRequest {
   const given = request as RenderRequest
   const must = (right: boolean, what: string) => {

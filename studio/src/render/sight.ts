@@ -6,15 +6,15 @@ import { Framing, windowOf, type Axes, type Stand } from './framing'
 import { bustPoints, follow, handPoints, jointAlone } from './landmarks'
 import type { RenderView } from './request'
 
-/** About a joint, metres of a signer of scale 1: flesh, and in a view of the hands something to see them by. */
+/** Radii around a joint, metres of a signer of scale 1: flesh, and in a view of the hands some context. */
 const kFlesh = 0.03,
   kAboutHands = 0.05
-/** Seconds before and after a moment over which a view of the hands follows them. */
+/** Seconds before and after a moment over which a view of the hands is smoothed. */
 const kFollow = 0.35
-/** How far above the hands their view is, radians. */
+/** Elevation of the camera in a view of the hands, radians. */
 const kAbove = 0.12
 
-/** The picture that a sight is for: degrees of the lens, vertical; pixels, of which `foot` at the bottom are covered. */
+/** The view of a sight: vertical field of view in degrees; pixels, of which `foot` at the bottom are covered. */
 interface Picture {
   readonly lens: number
   readonly width: number
@@ -23,16 +23,15 @@ interface Picture {
 }
 
 /**
- * What a view needs to show a whole motion, which is known before the first picture is drawn: one sight, or one for each hand, as
- * they are seen from the front, each in its part of the picture (`picture` tells of what shape). Throws where there are no hands
- * to look at.
+ * Returns the cameras that a view needs to show a whole motion, computed before the first frame is drawn: one sight, or one for each hand as seen from the
+ * front, each in its part of the picture (`picture` gives its shape). Throws if there are no hands to show.
  */
 export function sightsOf(motion: OpenedMotion, signer: Proportions, view: RenderView, picture: (shots: number) => Picture): Sight[] {
   const hands = (['right', 'left'] as const).map((side) => handPoints(motion, side)).filter(({ length }) => length > 0)
   const { scale } = signer,
     facing = facingOf(motion, signer)
   if (view === 'hands') {
-    if (hands.length === 0) throw new Error('no hands are known of this motion’s joints: a view of them cannot be made')
+    if (hands.length === 0) throw new Error('this motion’s rig has no hands: they cannot be shown')
     return hands.map(
       (hand) =>
         new Sight(motion, facing, view, picture(hands.length), (framing) =>
@@ -44,14 +43,14 @@ export function sightsOf(motion: OpenedMotion, signer: Proportions, view: Render
   const seen = follow(motion, body.length > 0 ? body : motion.store.skeleton.joints.map((_, joint) => jointAlone(joint)))
   return [
     new Sight(motion, facing, view, picture(1), (framing, { right }) => {
-      // From the front the body is in the middle, wherever the hands go; from the side all that is seen.
+      // In the front view the body is centred, wherever the hands go; in the side view, everything visible is.
       const root = view === 'front' ? motion.rig.pelvis : undefined
       return [framing.still(seen, kFlesh * scale, root && meanAlong(follow(motion, [jointAlone(root.joint)]).places, right))]
     }),
   ]
 }
 
-/** A camera that is told beforehand where it stands, for each frame of a motion or once for all. */
+/** A camera with precomputed positions, for each frame of a motion or a single one. */
 export class Sight {
   readonly camera: PerspectiveCamera
   private readonly axes: Axes
@@ -71,7 +70,7 @@ export class Sight {
     this.stands = stands(new Framing(this.axes, windowOf(lens, width, height, foot)), this.axes)
   }
 
-  /** The camera for a moment, in seconds from the motion's first frame. */
+  /** Returns the camera for a moment, in seconds from the motion's first frame. */
   at(seconds: number): PerspectiveCamera {
     const { camera, stands } = this,
       { right, up, back } = this.axes
@@ -88,7 +87,7 @@ export class Sight {
   }
 }
 
-/** From the front, from the signer's right, or a little from above. */
+/** From the front, from the signer's right, or slightly from above. */
 function axesOf(signer: Facing, view: RenderView): Axes {
   const level = view === 'side' ? signer.left.clone().negate() : signer.front.clone()
   const above = view === 'hands' ? kAbove : 0

@@ -1,4 +1,4 @@
-/** VP9's levels: number, most luma samples a second, most luma samples a picture. */
+/** VP9's levels: number, maximum luma samples a second, maximum luma samples a frame. */
 const kLevels: readonly (readonly [string, number, number])[] = [
   ['10', 829440, 36864],
   ['11', 2764800, 73728],
@@ -15,7 +15,7 @@ const kLevels: readonly (readonly [string, number, number])[] = [
   ['61', 2353004544, 35651584],
 ]
 
-/** The name that WebCodecs and WebM have for VP9, profile 0, 8 bits, of the lowest level that has room for such a film. */
+/** Returns the codec string of WebCodecs and WebM for VP9, profile 0, 8 bits, of the lowest level that permits such a video. */
 export function vp9Codec(width: number, height: number, rate: number): string {
   const samples = width * height
   const level = kLevels.find(([, aSecond, aPicture]) => samples * rate <= aSecond && samples <= aPicture)?.[0] ?? '62'

@@ -16,13 +16,13 @@ const document = {
   ],
 }
 
-it('asks for signs that move like a stretch, and for phases where it is one', () => {
+it('searches for signs similar to a span, and for phases if it is one', () => {
   expect(alikeQuery('me"teo', 1200, 2980, document)).toBe('like("me\\"teo"@1200..2980)')
   expect(alikeQuery('meteo', 1900.0000001, 2460, document)).toBe('phase = stroke & like("meteo"@1900..2460)')
   expect(alikeQuery('meteo', 1500, 2460.4, document)).toBe('like("meteo"@1500..2460)')
 })
 
-it('asks for phases that move like a phase that was found', () => {
+it('searches for phases similar to a phase that was found', () => {
   const stroke = { at: 0, recording: 'villes', tier: 'Phase', name: 'VANNES stroke', begin: 1810, end: 2390 }
   expect(alikeOf(stroke, 'gloss = "VANNES" & phase = stroke')).toBe('phase = stroke & like("villes"@1810..2390)')
   expect(alikeOf(stroke, 'gloss = "VANNES stroke"')).toBe('like("villes"@1810..2390)')

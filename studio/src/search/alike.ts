@@ -3,8 +3,8 @@ import { kindOf } from '../timeline/tier_kind'
 import { pieceText, type Answer } from './answers'
 
 /**
- * The query for what moves like a stretch of a recording (ms of annotation time). What is compared are signs; where the stretch
- * is a phase as it is annotated, phases of that kind.
+ * Returns the query for movements similar to a span of a recording (ms of annotation time). Signs are compared; if the span is an annotated phase, phases of
+ * that kind.
  */
 export function alikeQuery(recording: string, from: number, to: number, { tiers }: AnnotationDocument): string {
   const begin = Math.round(from),
@@ -18,7 +18,7 @@ export function alikeQuery(recording: string, from: number, to: number, { tiers 
   return like
 }
 
-/** The query for what moves like an answer to `asked`: where phases were asked for, phases of its kind. */
+/** Returns the query for movements similar to an answer to `asked`: phases of its kind if phases were searched. */
 export function alikeOf(answer: Answer, asked: string): string {
   const kind = /\bphase\b/.test(asked) ? / (preparation|stroke|retraction)$/.exec(answer.name)?.[1] : undefined
   const like = `like(${pieceText(answer)})`

@@ -3,18 +3,18 @@ import type { Showing, Strand } from '../viewer/showing'
 import { Transport } from '../viewer/transport'
 import type { Answer } from './answers'
 
-/** Ms that are fetched before and after, and shown where that is wanted. */
+/** Ms fetched before and after an answer, and shown on request. */
 const kAround = 200
 
-/** One answer after the other, each as a loop on the same stage. */
+/** Shows one answer after the other as a loop on the same stage. */
 export class AnswerLoop implements Showing {
   readonly transport = new Transport()
   strands = $state.raw<readonly Strand[]>([])
   arrivals = $state(0)
   fault = $state.raw<unknown>()
-  /** Whether what is wanted has not come yet. */
+  /** Whether the requested motion has not arrived yet. */
   waiting = $state(false)
-  /** Whether some of what is around is shown, too. */
+  /** Whether some context is shown, too. */
   around = $state(false)
   private answer?: Answer
   private piece?: Piece
@@ -29,7 +29,7 @@ export class AnswerLoop implements Showing {
     return (seconds) => seconds
   }
 
-  /** Shows an answer as soon as it is there; `next` are those that may be wanted then. Both in a character's joints. */
+  /** Shows an answer as soon as it is loaded; `next` are those probably shown next. Both in a character's joints. */
   show(answer: Answer | undefined, next: readonly Answer[], character: string | undefined): void {
     this.answer = answer
     this.piece = answer && pieceOf(answer, character)
@@ -60,13 +60,13 @@ export class AnswerLoop implements Showing {
     this.transport.duration = motion.store.seconds
     this.transport.held = false
     this.repeat(motion.originMs)
-    // It plays by itself, where nobody has asked the system for less motion; later as the user left it.
+    // The first answer plays automatically, unless the system is set to reduced motion; later the user's setting is kept.
     if (this.strands.length === 0 && !matchMedia('(prefers-reduced-motion: reduce)').matches) this.transport.play()
     this.strands = [{ role: 'only', source, motion }]
     ++this.arrivals
   }
 
-  /** Begins the loop anew: the answer, or with what is around it. */
+  /** Restarts the loop: the answer, or the answer with its context. */
   private repeat(originMs = this.strands[0]?.motion.originMs): void {
     if (!this.answer || originMs === undefined) return
     const { transport } = this,

@@ -10,7 +10,7 @@ it('reads answers with a distance and with variables', () => {
   expect(reader.variables).toEqual(['$X', '$Y'])
 })
 
-it('reads how answers fit words', () => {
+it('reads how answers match words', () => {
   const reader = new AnswerReader()
   const [, first] = [
     reader.take([['recording', 'tier', 'name', 'begin ms', 'end ms', 'match']]),
@@ -20,7 +20,7 @@ it('reads how answers fit words', () => {
   expect(reader.variables).toEqual([])
 })
 
-it('reads plain answers, and counts on over several pieces', () => {
+it('reads plain answers, and continues counting over several chunks', () => {
   const reader = new AnswerReader()
   reader.take([
     ['recording', 'tier', 'name', 'begin ms', 'end ms'],
@@ -31,7 +31,7 @@ it('reads plain answers, and counts on over several pieces', () => {
   expect(reader.ranked).toBe(false)
 })
 
-it('names a piece as queries and utterances do', () => {
+it('names a piece as in queries and utterances', () => {
   expect(pieceText({ recording: 'a "b"', begin: 1200, end: 3400 })).toBe('"a \\"b\\""@1200..3400')
   expect(quoted('a\\b\n')).toBe('"a\\\\b\\n"')
 })

@@ -1,17 +1,17 @@
 /** A segment that a query found. Times are ms of annotation time. */
 export interface Answer {
-  /** Its number in what the server answered, from 0. */
+  /** Its index in the server's answer, from 0. */
   readonly at: number
   readonly recording: string
   readonly tier: string
   readonly name: string
   readonly begin: number
   readonly end: number
-  /** Of an answer to `like(…)`: 0 is the same movement. */
+  /** For an answer to `like(…)`: 0 is the same movement. */
   readonly distance?: number
-  /** How it fits words that were searched (docs/query.md). */
+  /** How it matches the words searched for (docs/query.md). */
   readonly match?: Match
-  /** What the variables of the query were, in the order of `AnswerReader.variables`. */
+  /** The values of the query's variables, in the order of `AnswerReader.variables`. */
   readonly bindings?: readonly string[]
 }
 
@@ -19,7 +19,7 @@ export type Match = 'exact' | 'folded' | 'sequence' | 'part' | 'label' | 'some'
 
 const kPlain = 5
 
-/** Makes answers of the records of the server's CSV, the first of which names the columns. */
+/** Converts the records of the server's CSV, the first of which names the columns, to answers. */
 export class AnswerReader {
   /** Names of the query's variables, with their `$`. */
   variables: readonly string[] = []
@@ -28,7 +28,7 @@ export class AnswerReader {
   private matched = false
   private first = kPlain
   private count = 0
-  /** One text for all rows that have the same. */
+  /** Shares equal texts between rows. */
   private readonly texts = new Map<string, string>()
 
   take(records: readonly string[][]): Answer[] {
@@ -66,12 +66,12 @@ export class AnswerReader {
   }
 }
 
-/** The piece of a recording that an answer is, as queries and utterances name it: `"meteo"@1200..3400`. */
+/** Returns an answer's piece of a recording in the syntax of queries and utterances: `"meteo"@1200..3400`. */
 export function pieceText({ recording, begin, end }: Pick<Answer, 'recording' | 'begin' | 'end'>): string {
   return `${quoted(recording)}@${begin}..${end}`
 }
 
-/** A text in double quotes, as queries read it. */
+/** Quotes a text as queries read it. */
 export function quoted(text: string): string {
   return `"${text.replace(/["\\]/g, '\\$&').replaceAll('\n', '\\n').replaceAll('\t', '\\t')}"`
 }

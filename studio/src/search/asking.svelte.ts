@@ -3,9 +3,9 @@ import type { Api } from '../api/client'
 import { AnswerReader, type Answer } from './answers'
 import { CsvReader } from './csv'
 
-const kTellMs = 250
+const kUpdateMs = 250
 
-/** A query that is asked, and its answers as they come. What was found before stays until something else comes. */
+/** A query, and its answers as they arrive. Previous answers stay until new ones arrive. */
 export class Asking {
   status = $state<'idle' | 'asking' | 'answered' | 'stopped' | 'failed'>('idle')
   answers = $state.raw<readonly Answer[]>([])
@@ -13,15 +13,15 @@ export class Asking {
   ranked = $state(false)
   notices = $state.raw<readonly NoticeRow[]>([])
   fault = $state.raw<unknown>()
-  /** What was asked last. */
+  /** The last query. */
   text = $state('')
-  /** To which the answers are. */
+  /** The query to which the answers belong. */
   answered = $state('')
-  /** Whether all answers have come: not where it was stopped, or broke off. */
+  /** Whether all answers have arrived: not if it was stopped, or broke off. */
   whole = $state(true)
-  /** Rises with every query that is answered, not with every piece of an answer. */
+  /** Increases with every query answered, not with every part of an answer. */
   number = $state(0)
-  /** From the question to the last answer. */
+  /** From the request to the last answer. */
   seconds = $state(0)
   private abort?: AbortController
 
@@ -52,13 +52,13 @@ export class Asking {
     }
   }
 
-  /** Gives up what is under way. */
+  /** Cancels the request in progress. */
   stop(): void {
     this.abort?.abort()
     if (this.status === 'asking') this.status = !this.answered ? 'idle' : this.whole ? 'answered' : 'stopped'
   }
 
-  /** As if nothing had been asked. */
+  /** Resets to the initial state. */
   clear(): void {
     this.stop()
     this.status = 'idle'
@@ -75,9 +75,9 @@ export class Asking {
     const come: Answer[] = []
     const decoder = new TextDecoder()
     const stream = csv.getReader()
-    let told = 0
-    const tell = () => {
-      told = performance.now()
+    let lastUpdate = 0
+    const update = () => {
+      lastUpdate = performance.now()
       this.answers = come.slice()
       this.whole = false
       if (this.answered !== text || come.length === 0) this.begin(reader, text)
@@ -89,9 +89,9 @@ export class Asking {
       if (done) break
       come.push(...reader.take(lines.push(decoder.decode(value, { stream: true }))))
       this.begin(reader, text)
-      if (performance.now() - told > kTellMs) tell()
+      if (performance.now() - lastUpdate > kUpdateMs) update()
     }
-    tell()
+    update()
     this.whole = true
   }
 

@@ -1,7 +1,7 @@
 import { expect, it } from 'vitest'
 import { kGap, layoutOf, moved, shownCells } from './cells'
 
-it('puts as many cells beside each other as fit', () => {
+it('puts as many cells side by side as fit', () => {
   const small = layoutOf(1240, 'small'),
     large = layoutOf(1240, 'large'),
     phone = layoutOf(344, 'medium')
@@ -10,13 +10,13 @@ it('puts as many cells beside each other as fit', () => {
   expect(layoutOf(20, 'large').columns).toBe(1)
 })
 
-it('makes the cells that are seen, and a row more on each side', () => {
+it('creates the visible cells, and one more row on each side', () => {
   const layout = { columns: 5, width: 100, picture: 96, step: 100 }
   expect(shownCells(1000, layout, 1000, 250)).toEqual({ first: 45, end: 70, row: 9, top: 900 })
   expect(shownCells(7, layout, 0, 250)).toEqual({ first: 0, end: 7, row: 0, top: 0 })
 })
 
-it('goes by keys, and stays where there is nothing', () => {
+it('moves by keys, and stays at the borders', () => {
   expect(moved('ArrowRight', 3, 10, 4, 2)).toBe(4)
   expect(moved('ArrowDown', 3, 10, 4, 2)).toBe(7)
   expect(moved('ArrowDown', 7, 10, 4, 2)).toBe(7)

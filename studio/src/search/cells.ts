@@ -1,10 +1,10 @@
 import { shownRows } from '../ui/rows'
 
-/** How cells of a size lie in a window of a width: as many beside each other as fit, all as wide as there is room. */
+/** The layout of cells in a window: as many columns as fit, widened to fill the width. */
 export interface Layout {
   readonly columns: number
   readonly width: number
-  /** Of the picture. */ readonly picture: number
+  /** The width of the picture. */ readonly picture: number
   /** From one row of cells to the next. */ readonly step: number
 }
 export const kGap = 8
@@ -13,7 +13,7 @@ export const kSizes = { small: 132, medium: 184, large: 268 } as const
 export type Size = keyof typeof kSizes
 
 export function layoutOf(width: number, size: Size): Layout {
-  // Two beside each other on a phone, where they are not asked for large.
+  // Two columns on a phone, unless the size is large.
   const wanted = size === 'large' ? kSizes.large : Math.min(kSizes[size], Math.max(kSizes.small, (width - kGap) / 2))
   const columns = Math.max(1, Math.floor((width + kGap) / (wanted + kGap)))
   const each = Math.max(40, Math.floor((width - kGap * (columns - 1)) / columns))
@@ -21,13 +21,13 @@ export function layoutOf(width: number, size: Size): Layout {
   return { columns, width: each, picture, step: picture + kCaption + kGap }
 }
 
-/** Which cells are made for a place of the scroll bar, and where their first row lies. */
+/** Returns the cells to create for a scroll position, and the position of their first row. */
 export function shownCells(count: number, { columns, step }: Layout, scroll: number, height: number, spare = 1) {
   const { first, end, top } = shownRows(Math.ceil(count / columns), step, scroll, height, spare)
   return { first: first * columns, end: Math.min(count, end * columns), row: first, top }
 }
 
-/** Where a key takes one; nowhere new where it is none of these. */
+/** Returns the cell that a key moves to; the same one for other keys. */
 export function moved(key: string, at: number, count: number, columns: number, rowsInView: number): number {
   const page = columns * Math.max(1, rowsInView)
   const to: Readonly<Record<string, number>> = {

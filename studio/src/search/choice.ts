@@ -1,16 +1,16 @@
 import type { Answer } from './answers'
 
-/** Which answers are chosen, by their numbers, in the order in which they were chosen. */
+/** The selected answers, by index, in the order of selection. */
 export type Choice = ReadonlySet<number>
 
-/** The other way round for one. */
+/** Toggles the selection of one answer. */
 export function toggled(choice: Choice, at: number): Choice {
   const next = new Set(choice)
   if (!next.delete(at)) next.add(at)
   return next
 }
 
-/** With all between two rows of a list, both included, in the list's order from the first named. */
+/** Adds all answers between two rows of a list, both included, in the direction from the first. */
 export function withRange(choice: Choice, list: readonly Answer[], from: number, to: number): Choice {
   const next = new Set(choice)
   const step = from <= to ? 1 : -1
@@ -18,7 +18,7 @@ export function withRange(choice: Choice, list: readonly Answer[], from: number,
   return next
 }
 
-/** The chosen ones of all answers, in the order in which they were chosen. */
+/** Returns the selected answers, in the order of selection. */
 export function chosenOf(choice: Choice, answers: readonly Answer[]): readonly Answer[] {
   return [...choice].flatMap((at) => answers[at] ?? [])
 }

@@ -21,7 +21,7 @@ const words: Words = {
     functions: ['speed', 'mean_speed', 'path', 'distance', 'contact', 'begin', 'end', 'max', 'any', 'enters', 'track', 'gaze', 'like'],
   },
 }
-/** `|` is the caret. What is offered, and what the text becomes with the first of it. */
+/** `|` is the caret. Returns the options, and the text with the first of them inserted. */
 const at = (marked: string, known = words) => {
   const caret = marked.indexOf('|'),
     text = marked.slice(0, caret) + marked.slice(caret + 1)
@@ -30,7 +30,7 @@ const at = (marked: string, known = words) => {
   return { labels: options.map(({ label }) => label), first, eager, chosen: first ? text.slice(0, from) + first.insert + text.slice(to) : text }
 }
 
-it('offers what a condition may begin with', () => {
+it('offers what can begin a condition', () => {
   const { labels, eager } = at('|')
   for (const one of ['gloss', 'phase', 'tier', 'unit', 'like', 'speed', 'child', 'overlaps', '!', '(', '@']) expect(labels).toContain(one)
   expect(eager).toBe(false)
@@ -44,7 +44,7 @@ it('offers what a condition may begin with', () => {
   expect(at('gloss = "A" & |').labels).not.toContain('@')
 })
 
-it('offers glosses in quotes with their tokens, whether the quote is there or not', () => {
+it('offers quoted glosses with their tokens, with or without a typed quote', () => {
   expect(at('gloss = |')).toMatchObject({ first: { label: 'LE MANS', insert: '"LE MANS"', tokens: 3 }, eager: true })
   expect(at('gloss = van|').chosen).toBe('gloss = "VANNES"')
   expect(at('gloss = "van|').chosen).toBe('gloss = "VANNES"')
@@ -56,7 +56,7 @@ it('offers glosses in quotes with their tokens, whether the quote is there or no
   expect(at('gloss =~ |').labels).toEqual(['/…/'])
 })
 
-it('offers glosses where words alone are typed', () => {
+it('offers glosses if only words are typed', () => {
   expect(at('vann|').chosen).toBe('VANNES')
   expect(at('vannes "le m|').chosen).toBe('vannes "LE MANS"')
   expect(at('"le m|').chosen).toBe('"LE MANS"')
@@ -66,14 +66,14 @@ it('offers glosses where words alone are typed', () => {
   expect(at('vannes |').labels).toEqual([])
 })
 
-it('overwrites what was typed, and nothing that was written behind it', () => {
+it('overwrites what was typed, and nothing after it', () => {
   expect(at('gloss = "VA|LENCE" & phase = stroke').chosen).toBe('gloss = "VANNES" & phase = stroke')
   expect(at('gloss = "VA| & phase = stroke').chosen).toBe('gloss = "VANNES" & phase = stroke')
   expect(at('gloss = "VA| & recording = "meteo"').chosen).toBe('gloss = "VANNES" & recording = "meteo"')
   expect(at('ph|as = stroke').first?.label).toBe('phase')
 })
 
-it('offers what the other fields may be', () => {
+it('offers values of the other fields', () => {
   expect(at('phase = |').labels).toEqual(words.language.phases)
   expect(at('phase = str|').chosen).toBe('phase = stroke')
   expect(at('hand = |').labels).toEqual(words.language.hands)
@@ -83,10 +83,10 @@ it('offers what the other fields may be', () => {
   expect(at('tier("Gloss") = |').labels).toEqual(['"…"', '$X'])
 })
 
-it('offers what a tier says once that is known, and tells which tier to ask for', () => {
+it("offers a tier's labels once they are known, and says which tier is needed", () => {
   const wants = (text: string, known = words) => complete(text, text.length, known).wants
   expect([wants('tier("Mouthing") = '), wants('tier("Mouthing") = "nu'), wants('!tier("Gloss") != ')]).toEqual(['Mouthing', 'Mouthing', 'Gloss'])
-  // Not where a name is no tier's, or an expression is written, or something else.
+  // No labels if a name is no tier's, if an expression is written, or elsewhere.
   expect([
     wants('tier("Mouth") = '),
     wants('tier("Mouthing") =~ '),
@@ -126,7 +126,7 @@ it('offers names of tiers, recordings, tracks and points in parentheses', () => 
   expect(at('gaze(|').labels).toEqual(['yaw', 'pitch'])
 })
 
-it('offers comparisons, components and what joins conditions', () => {
+it('offers comparisons, components and operators that join conditions', () => {
   expect(at('gloss |').labels).toEqual(['=', '!=', '=~'])
   expect(at('hand |').labels).toEqual(['=', '!='])
   expect(at('duration |').labels).toContain('>=')
@@ -146,7 +146,7 @@ it('offers comparisons, components and what joins conditions', () => {
   expect(at('unit |').labels).toContain('&')
 })
 
-it('offers what is there at any moment', () => {
+it('offers the operators over moments', () => {
   expect(at('max(|').labels).toEqual(expect.arrayContaining(['right_hand', 'speed(…)', 'track(…)']))
   expect(at('max(right_|').chosen).toBe('max(right_hand)')
   expect(at('max(right_hand)|').labels).toEqual(['.height', '.x', '.forward', '.openness'])
@@ -168,12 +168,12 @@ it('offers what is there at any moment', () => {
   expect(at('enters(hand).height = |').labels).toEqual(['below_waist', 'waist', 'chest', 'shoulder', 'chin', 'mouth', 'forehead', 'above_head'])
 })
 
-it('is silent where nothing in its lists can stand', () => {
+it('is silent if nothing in its lists is valid', () => {
   for (const marked of ['gloss =~ /van|', 'gloss = "A" ->[..|', 'gloss = "VANNES|"', 'phase = stroke|', '12 |', 'tier("A") = "x|'])
     expect(at(marked).labels, marked).toEqual([])
 })
 
-it('offers much at a time, and not all of a large vocabulary', () => {
+it('offers many options, but not all of a large vocabulary', () => {
   const glosses = Array.from({ length: 5000 }, (_, i) => ({ gloss: `G${i}`, tokens: 1 }))
   expect(complete('gloss = ', 8, { ...words, glosses }).options.length).toBeLessThanOrEqual(60)
   expect(complete('gloss = G4999', 13, { ...words, glosses: [...glosses, { gloss: 'G49990', tokens: 1 }] }).options.map(({ label }) => label)).toEqual([

@@ -4,16 +4,16 @@ import { contextAfter, isCall, type Context } from './context'
 import { kAngles, kComponentsOf, kMomentsOf, kNamesOf, kNumberOf, kRelations, kTextFields, kTimes, kZones } from './language'
 import { scan, type Token } from './scan'
 
-/** What completion knows of a database; `tracks` are those of the face, `labels` those of the tiers that were asked for. */
+/** The vocabulary for completion; `tracks` are those of the face, `labels` those of the tiers requested so far. */
 export type Words = Vocabulary & { readonly tracks?: readonly string[]; readonly labels?: ReadonlyMap<string, TierLabels['labels']> }
 
 export interface Option {
-  /** What it is called in the list. */
+  /** The label in the list. */
   readonly label: string
-  /** What is put in place of what was typed. */
+  /** The text that replaces what was typed. */
   readonly insert: string
   readonly kind: 'gloss' | 'label' | 'phase' | 'hand' | 'recording' | 'signer' | 'tier' | 'track' | 'word' | 'sign'
-  /** Of a gloss or label: how many tokens it has. */
+  /** For a gloss or label: its number of tokens. */
   readonly tokens?: number
 }
 export interface Completion {
@@ -22,19 +22,19 @@ export interface Completion {
   readonly options: readonly Option[]
   /** Whether the list may open by itself. */
   readonly eager: boolean
-  /** A tier whose labels should be asked for. */
+  /** A tier whose labels should be loaded. */
   readonly wants?: string
 }
 
 const kMost = 60
 const kPlainFields = ['gloss', 'phase', 'hand', 'recording', 'signer', 'tier', 'duration', 'begin', 'end', 'unit']
 
-/** What may stand where the caret is, as far as it begins or holds what was typed there. */
+/** Returns what is valid at the caret and begins with or contains what was typed there. */
 export function complete(text: string, caret: number, words: Words): Completion {
   const tokens = scan(text)
   const typing = tokens.find((token) => isTyped(token, caret))
   const before = tokens.filter(({ end }) => end <= (typing?.begin ?? caret))
-  // Between a slash and its end a person writes what no list has; in a gap, too.
+  // There is no list for the content of a regular expression or a gap.
   if (typing && (typing.kind === 'regex' || typing.kind === 'gap')) return { from: caret, to: caret, options: [], eager: false }
   const context = contextAfter(before)
   const typed = typing ? text.slice(typing.begin, caret).replace(/^"/, '') : ''
@@ -56,7 +56,7 @@ export function complete(text: string, caret: number, words: Words): Completion 
   }
 }
 
-/** Whether nothing but words stands there, none of them of the language: the query is words to find (docs/query.md). */
+/** Whether all tokens are plain words outside the query language: the query is a search for words (docs/query.md). */
 function isWords(before: readonly Token[], { language }: Words): boolean {
   const ofLanguage = (text: string) => [language.fields, language.functions, language.links].some((list) => list.includes(text))
   return before.every(({ kind, text }) => kind === 'text' || (kind === 'word' && !ofLanguage(text)))
@@ -66,14 +66,14 @@ function bareGlosses({ glosses }: Words, { kind }: Token): Option[] {
   return glosses.map(({ gloss, tokens }): Option => ({ label: gloss, insert: plain(gloss) ? gloss : quoted(gloss), kind: 'gloss', tokens }))
 }
 
-/** Whether the caret is in a token that is being typed; behind a sign or a closed text it is not. */
+/** Whether the caret is in a token being typed; after a symbol or a closed text it is not. */
 function isTyped({ kind, begin, end, closed }: Token, caret: number): boolean {
   if (kind === 'symbol') return false
   if (kind === 'word' || kind === 'variable') return begin < caret && caret <= end
   return begin < caret && (caret < end || (caret === end && !closed))
 }
 
-/** Up to where a choice overwrites: of a text without its end not what was written behind it. */
+/** Returns the end of the range that a choice overwrites: for an unclosed text, what follows the caret is preserved. */
 function endOf({ kind, begin, end, closed }: Token, text: string, caret: number): number {
   if (kind !== 'text') return end
   const behind = text.slice(caret, closed ? end - 1 : end)
@@ -117,7 +117,7 @@ function conditions({ language }: Words, before: readonly Token[]): Option[] {
 }
 
 function compares(of: string, part?: string): Option[] {
-  // A function wants its parenthesis, and behind it some want or may have a component.
+  // A function needs its parenthesis, and after it some functions require or allow a component.
   if (part === undefined && isCall(of)) return [sign('(')]
   if (part === '' && of in kComponentsOf) return kComponentsOf[of].map((name) => word(name))
   const moments = part === '' ? (kMomentsOf[of] ?? []) : []
@@ -198,7 +198,7 @@ function after(open: number): Option[] {
   ]
 }
 
-/** What begins with what was typed, then what has it inside; accents and case do not count. */
+/** Options that begin with what was typed, then those that contain it; accents and case are ignored. */
 function matching(options: readonly Option[], typed: string): Option[] {
   const wanted = folded(typed)
   if (!wanted) return options.slice(0, kMost)
@@ -213,7 +213,7 @@ function matching(options: readonly Option[], typed: string): Option[] {
 }
 const folded = (text: string) => text.normalize('NFD').replace(/\p{M}/gu, '').toLowerCase()
 
-/** With a blank before it where it would stick to a comparison or a word. */
+/** Adds a space in front if it would join a comparison or a word. */
 function spaced(option: Option, text: string, from: number, context: Context): Option {
   const sticks = from > 0 && !/[\s(!]/.test(text[from - 1]) && context.at !== 'argument' && !option.insert.startsWith('.') && option.insert !== '('
   return sticks ? { ...option, insert: ` ${option.insert}` } : option

@@ -1,27 +1,27 @@
 import { kMomentsOf, kOverMoments, kRelations, kTextFields, kTimes } from './language'
 import type { Token } from './scan'
 
-/** What may stand at the end of what was typed. */
+/** What is valid at the end of what was typed. */
 export type Context =
   | { readonly at: 'condition' }
-  /** `of` is the field or function; `tier` the name that was given in the parenthesis of `tier`, `part` the component behind a function. */
+  /** `of` is the field or function; `tier` the name in the parentheses of `tier`, `part` the component after a function. */
   | { readonly at: 'compare'; readonly of: string; readonly part?: string; readonly tier?: string }
   | { readonly at: 'value'; readonly of: string; readonly by: string; readonly part?: string; readonly tier?: string }
-  /** `inner` is the quantity that was named in max(…) and its like. */
+  /** `inner` is the quantity named in max(…) and the like. */
   | { readonly at: 'argument'; readonly of: string; readonly index: number; readonly inner?: string }
-  /** The quantity `of` in max(…) and its like is whole. */
+  /** The quantity `of` in max(…) and the like is complete. */
   | { readonly at: 'inner'; readonly of: string }
-  /** A condition is whole. `open` counts parentheses. */
+  /** A condition is complete. `open` counts parentheses. */
   | { readonly at: 'after'; readonly open: number }
   | { readonly at: 'nothing' }
 
 const kCompare = /^(=|!=|=~|<|<=|>|>=)$/
 const kLinks: readonly string[] = ['parent', 'child', 'ancestor', 'descendant', ...kRelations]
 
-/** Reads tokens from the begin of a query, and tells what may come next. */
+/** Reads tokens from the begin of a query, and returns what is valid next. */
 export function contextAfter(tokens: readonly Token[]): Context {
   let here: Context = { at: 'condition' }
-  /** What each open parenthesis belongs to: a group or a link, else the function's name. */
+  /** The owner of each open parenthesis: a group or a link, otherwise the function's name. */
   const open: string[] = []
   let tier: string | undefined
   for (const token of tokens) {
@@ -52,7 +52,7 @@ export function contextAfter(tokens: readonly Token[]): Context {
   return here
 }
 
-/** Behind the first token of a condition. */
+/** After the first token of a condition. */
 function begun(here: Context, { kind, text }: Token, open: readonly string[]): Context {
   if (kind === 'gap' || (kind === 'symbol' && (text === '!' || text === '@'))) return here
   if (kind !== 'word') return { at: 'nothing' }
@@ -60,11 +60,11 @@ function begun(here: Context, { kind, text }: Token, open: readonly string[]): C
   return { at: 'compare', of: text }
 }
 
-/** Behind a parenthesis that was closed. */
+/** After a closing parenthesis. */
 function closed(of: string | undefined, open: readonly string[], tier: string | undefined, here: Context): Context {
   if (of === undefined) return { at: 'nothing' }
   if (kOverMoments.includes(open[open.length - 1])) return { at: 'inner', of }
-  // max(speed(hand)) is one moment's: no component may follow.
+  // max(speed(hand)) is a single value: no component may follow.
   if (here.at === 'inner') return { at: 'compare', of: here.of, part: of === 'max' ? '.most' : '.least', tier }
   const zone = of === 'enters' && here.at === 'argument' && here.index > 0
   return of === '' || of === 'like' || zone ? { at: 'after', open: open.length } : { at: 'compare', of, part: '', tier }

@@ -1,7 +1,7 @@
 import { expect, it } from 'vitest'
 import { CsvReader } from './csv'
 
-it('gives each record once it is whole, however the text is cut', () => {
+it('returns each record once it is complete, for any chunking of the text', () => {
   const text = 'recording,name\nmeteo,"A, ""B""\nC"\nvilles,\n"",x\n'
   const wanted = [
     ['recording', 'name'],

@@ -1,8 +1,8 @@
-/** Reads the server's CSV piece by piece as it comes: commas, quotes only where they are needed, lines that end in a line feed. */
+/** Reads the server's CSV in chunks as it arrives: commas, quotes only if needed, lines that end in a line feed. */
 export class CsvReader {
   private rest = ''
 
-  /** The records that are whole now. */
+  /** Returns the records that are complete now. */
   push(text: string): string[][] {
     const all = this.rest + text
     // Most answers need no quotes, and then a line is a record.
@@ -29,7 +29,7 @@ export class CsvReader {
       if (all[at] === '"') {
         let end = all.indexOf('"', at + 1)
         while (end >= 0 && all[end + 1] === '"') end = all.indexOf('"', end + 2)
-        // What follows the quote has to be here, for it may be another one.
+        // The character after the quote must be available, because it may be another quote.
         if (end < 0 || end + 1 >= all.length) break
         field = all.slice(at + 1, end).replaceAll('""', '"')
         at = end + 1

@@ -13,7 +13,7 @@ const kEaf = `<?xml version="1.0" encoding="UTF-8"?>
 <LINGUISTIC_TYPE LINGUISTIC_TYPE_ID="default"/><LOCALE LANGUAGE_CODE="en"/></ANNOTATION_DOCUMENT>`
 const answer = (name: string, begin: number, end: number): Answer => ({ at: 0, recording: 'r', tier: 'Gloss', name, begin, end })
 
-it('puts answers on tiers of their own, none over another, and leaves all else as it was', () => {
+it('puts answers on separate tiers without overlaps, and leaves everything else unchanged', () => {
   const made = eafWith(kEaf, [answer('B & <C>', 500, 800), answer('A', 0, 600), answer('D', 600, 700)])
   const { tiers } = readEaf(made)
   expect(tiers.map(({ name }) => name)).toEqual(['query 1', 'query 2', 'query 3'])
@@ -27,7 +27,7 @@ it('puts answers on tiers of their own, none over another, and leaves all else a
   expect(order).toEqual(['HEADER', 'TIME_ORDER', 'TIER', 'TIER', 'TIER', 'LINGUISTIC_TYPE', 'LINGUISTIC_TYPE', 'LOCALE'])
   const ids = [...made.matchAll(/(?:TIME_SLOT_ID|ANNOTATION_ID)="([^"]+)"/g)].map(([, id]) => id)
   expect(new Set(ids).size).toBe(ids.length)
-  // The next program to write into it goes on where this one stopped; slots stand in the order of time.
+  // The next program that writes into it continues the numbering; slots are ordered by time.
   expect(made).toContain('<PROPERTY NAME="lastUsedAnnotationId">4</PROPERTY>')
   const times = [...made.matchAll(/TIME_VALUE="(\d+)"/g)].map(([, time]) => Number(time))
   expect(times).toEqual(times.toSorted((a, b) => a - b))
@@ -37,4 +37,4 @@ it('puts answers on tiers of their own, none over another, and leaves all else a
   expect(kept.length).toBeGreaterThan(20)
 })
 
-it('says where there is no EAF', () => expect(() => eafWith('<x/>', [])).toThrow('noEaf'))
+it('rejects text that is not an EAF', () => expect(() => eafWith('<x/>', [])).toThrow('noEaf'))

@@ -4,8 +4,8 @@ import type { Answer } from './answers'
 const kType = 'query answers'
 
 /**
- * An EAF with answers of a query on tiers of their own beside what it holds: "query 1", "query 2" …, no two answers of one tier
- * overlapping, as `signweave query --format eaf` writes it. All else stays byte for byte. Throws where the text is no EAF.
+ * Adds answers of a query to an EAF on separate tiers: "query 1", "query 2" …, without overlaps on a tier, as `signweave query --format eaf` writes it.
+ * Everything else is preserved byte for byte. Throws if the text is not an EAF.
  */
 export function eafWith(text: string, answers: readonly Answer[]): string {
   const writer = new EafWriter(text)

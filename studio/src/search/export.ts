@@ -1,6 +1,6 @@
 import type { Answer } from './answers'
 
-/** Answers as the server's CSV has them. */
+/** Writes answers as the server's CSV. */
 export function csvOf(answers: readonly Answer[], ranked: boolean, variables: readonly string[]): string {
   const matched = answers[0]?.match !== undefined
   const rows = [
@@ -19,7 +19,7 @@ export function csvOf(answers: readonly Answer[], ranked: boolean, variables: re
   return rows.map((row) => row.map((field) => (/[",\r\n]/.test(field) ? `"${field.replaceAll('"', '""')}"` : field)).join(',') + '\n').join('')
 }
 
-/** Of what the server wrote the answers that are wanted; none where the database has changed meanwhile, so that they are others now. */
+/** Selects the wanted answers from the server's JSON; undefined if the database has changed meanwhile, so that they differ now. */
 export function jsonOf(found: readonly object[], wanted: readonly Answer[]): string | undefined {
   const same = (one: Partial<Record<string, unknown>> | undefined, { recording, name, begin, end }: Answer) =>
     one !== undefined && one.recording === recording && one.name === name && one.begin_ms === begin && one.end_ms === end
@@ -27,7 +27,7 @@ export function jsonOf(found: readonly object[], wanted: readonly Answer[]): str
   return rows.includes(undefined) ? undefined : JSON.stringify(rows, null, 2) + '\n'
 }
 
-/** The name of a file of an answer's motion: plain on any system. */
+/** Returns the file name for an answer's motion, valid on any system. */
 export function fileName({ recording, name, begin, end }: Answer, ending: string): string {
   return `${plain(recording)}_${plain(name).slice(0, 60)}_${begin}-${end}.${ending}`
 }
@@ -35,7 +35,7 @@ export function plain(text: string): string {
   return text.replace(/[\\/:*?"<>|\s\p{Cc}]+/gu, '-').replace(/^[-.]+|[-.]+$/g, '') || 'x'
 }
 
-/** The answers of each recording, in the order of their first ones. */
+/** Groups the answers by recording, in the order of first occurrence. */
 export function byRecording(answers: readonly Answer[]): [recording: string, answers: Answer[]][] {
   const found = new Map<string, Answer[]>()
   for (const answer of answers) {
@@ -46,7 +46,7 @@ export function byRecording(answers: readonly Answer[]): [recording: string, ans
   return [...found]
 }
 
-/** Names of which no two are the same. */
+/** Makes names unique. */
 export function distinct(names: readonly string[]): string[] {
   const taken = new Set<string>()
   return names.map((name) => {
@@ -57,7 +57,7 @@ export function distinct(names: readonly string[]): string[] {
   })
 }
 
-/** Lets the browser save a file. */
+/** Saves a file through the browser. */
 export function save(name: string, content: Blob): void {
   const link = document.createElement('a')
   link.href = URL.createObjectURL(content)

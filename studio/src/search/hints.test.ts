@@ -2,7 +2,7 @@ import { expect, it } from 'vitest'
 import { suggested } from '../api/fault'
 import { replacements, withoutPlace } from './hints'
 
-it('reads what the server suggests', () => {
+it("reads the server's suggestions", () => {
   expect(suggested('no sign has the gloss "VANES"; did you mean VANNES or LE MANS?')).toEqual(['VANNES', 'LE MANS'])
   expect(suggested("no condition is called 'glos'; did you mean gloss?; use one of gloss, phase")).toEqual(['gloss'])
   expect(suggested('no sign has the gloss "X"')).toEqual([])
@@ -14,7 +14,7 @@ it('replaces the word at the caret', () => {
   ])
 })
 
-it('replaces the name that a hint without a place is about, in quotes', () => {
+it('replaces the quoted name in a hint without a position', () => {
   expect(replacements('gloss = VANES & phase = stroke', 'no sign has the gloss "VANES"; did you mean VANNES or NANTES?').map(({ text }) => text)).toEqual([
     'gloss = "VANNES" & phase = stroke',
     'gloss = "NANTES" & phase = stroke',
@@ -27,18 +27,18 @@ it('replaces the name that a hint without a place is about, in quotes', () => {
   )
 })
 
-it('replaces one of several words, or all of them where a query is meant', () => {
+it('replaces one of several words, or all of them if a query is suggested', () => {
   expect(replacements('matin vanes', 'nothing is called "vanes"; did you mean VANNES?').map(({ text }) => text)).toEqual(['matin "VANNES"'])
-  expect(replacements('Meteo', 'nothing is called "Meteo"; a recording is: did you mean recording = "meteo"?')).toEqual([
+  expect(replacements('Meteo', 'nothing is called "Meteo"; it is a recording: did you mean recording = "meteo"?')).toEqual([
     { label: 'recording = "meteo"', text: 'recording = "meteo"' },
   ])
 })
 
-it('suggests nothing where it is not plain what to replace', () => {
+it('suggests nothing if it is unclear what to replace', () => {
   expect(replacements('gloss = "A"', 'no sign has the gloss "B"; did you mean C?')).toEqual([])
   expect(replacements('gloss = "A"', 'the query is empty')).toEqual([])
 })
 
-it('leaves out the place that stands before the message', () => {
+it('removes the position from the message', () => {
   expect(withoutPlace('query:2:10: no phase is called')).toBe('no phase is called')
 })

@@ -1,7 +1,7 @@
-// What docs/query.md lists and the server's vocabulary does not.
+// Parts of the language listed in docs/query.md but not in the server's vocabulary.
 
 const kComponents = ['.height', '.x', '.forward', '.openness', '.palm', '.fingers', '.contact']
-/** The components of which a quantity wants one. */
+/** The components of which a quantity requires one. */
 export const kComponentsOf: Readonly<Record<string, readonly string[]>> = {
   begin: kComponents,
   end: kComponents,
@@ -10,7 +10,7 @@ export const kComponentsOf: Readonly<Record<string, readonly string[]>> = {
   min: kComponents.slice(0, 4),
   enters: kComponents.slice(0, 3),
 }
-/** Those that a quantity may have. */
+/** The components that a quantity may have. */
 export const kMomentsOf: Readonly<Record<string, readonly string[]>> = {
   speed: ['.least'],
   acceleration: ['.least'],
@@ -18,11 +18,11 @@ export const kMomentsOf: Readonly<Record<string, readonly string[]>> = {
   track: ['.least', '.begin', '.end'],
   gaze: ['.least', '.begin', '.end'],
 }
-/** Quantities that take a quantity of kMomentsOf, too: max(speed(right_hand)). */
+/** Quantities that also accept a quantity of kMomentsOf: max(speed(right_hand)). */
 export const kOverMoments: readonly string[] = ['max', 'min', 'any']
 export const kAngles = ['yaw', 'pitch'] as const
 const kDirections = ['up', 'down', 'left', 'right', 'forward', 'back']
-/** What a component may be compared with, by name. */
+/** The names with which a component can be compared. */
 export const kNamesOf: Readonly<Record<string, readonly string[]>> = {
   '.height': ['below_waist', 'waist', 'chest', 'shoulder', 'chin', 'mouth', 'forehead', 'above_head'],
   '.x': ['left', 'centre', 'right'],
@@ -32,9 +32,9 @@ export const kNamesOf: Readonly<Record<string, readonly string[]>> = {
   '.contact': ['hand', 'head', 'torso'],
   contact: ['hand', 'head', 'torso'],
 }
-/** What enters(POINT, …) takes. */
+/** The zones that enters(POINT, …) accepts. */
 export const kZones: readonly string[] = ['.height', '.x', '.forward'].flatMap((part) => kNamesOf[part])
-/** What a number of each quantity looks like. */
+/** An example number for each quantity. */
 export const kNumberOf: Readonly<Record<string, string>> = {
   duration: '300ms',
   begin: '1s',
@@ -55,7 +55,7 @@ export const kNumberOf: Readonly<Record<string, string>> = {
   '.forward': '30 cm',
   '.openness': '0.5',
 }
-/** Fields that hold texts, in the order in which they are offered, and how they are begun. */
+/** Fields that contain texts, in the order in which they are offered, and how they begin. */
 export const kTextFields: readonly string[] = ['gloss', 'phase', 'hand', 'recording', 'signer']
 export const kTimes: readonly string[] = ['duration', 'begin', 'end']
 export const kRelations: readonly string[] = ['overlaps', 'during', 'starts', 'ends', 'equals']

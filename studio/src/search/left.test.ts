@@ -4,14 +4,14 @@ import { chosenAgain, comeBack, leave } from './left'
 
 const answer = (at: number, name: string): Answer => ({ at, recording: 'r', tier: 'Gloss', name, begin: 100 * at, end: 100 * at + 50 })
 
-it('tells once how a search was left, and of that address only', () => {
+it('returns once how a search was left, only for its address', () => {
   leave({ hash: '#/a', chosen: [], focused: true })
   expect(comeBack('#/b')).toBeUndefined()
   expect(comeBack('#/a')?.focused).toBe(true)
   expect(comeBack('#/a')).toBeUndefined()
 })
 
-it('chooses again what is still there, in the order in which it was chosen', () => {
+it('selects again what still exists, in the order of selection', () => {
   const answers = [answer(0, 'A'), answer(1, 'B'), answer(2, 'C')]
   expect([...chosenAgain([answers[2], answer(1, 'X'), answers[0], answer(7, 'D')], answers)]).toEqual([2, 0])
 })

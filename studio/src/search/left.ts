@@ -1,11 +1,11 @@
 import type { Answer } from './answers'
 import type { Choice } from './choice'
 
-/** What of a search does not stand in the address: how it was left for another page. */
+/** The state of a search outside the address, when it was left for another page. */
 export interface Left {
   readonly hash: string
   readonly chosen: readonly Answer[]
-  /** Whether the list had the keys. */ readonly focused: boolean
+  /** Whether the list had the focus. */ readonly focused: boolean
 }
 
 let left: Left | undefined
@@ -13,14 +13,14 @@ let left: Left | undefined
 export function leave(as: Left): void {
   left = as
 }
-/** How the search of an address was left; told once. */
+/** Returns the state in which the search of an address was left; only once. */
 export function comeBack(hash: string): Left | undefined {
   const found = left?.hash === hash ? left : undefined
   if (found) left = undefined
   return found
 }
 
-/** Those of the chosen that are still what they were. */
+/** Returns the previously selected answers that are unchanged. */
 export function chosenAgain(chosen: readonly Answer[], answers: readonly Answer[]): Choice {
   return new Set(
     chosen.flatMap(({ at, recording, name, begin, end }) => {

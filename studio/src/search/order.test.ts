@@ -19,7 +19,7 @@ const list = [
 ]
 const at = (by: SortKey, down = false) => ordered(list, { by, down }, 'fr').map((one) => one.at)
 
-it('orders by every column, up and down, and leaves equal ones as they were found', () => {
+it('sorts by every column in both directions, and keeps the order of equal ones', () => {
   expect(at('name')).toEqual([2, 1, 0, 3])
   expect(at('name', true)).toEqual([0, 3, 1, 2])
   expect(at('recording', true)).toEqual([3, 0, 1, 2])
@@ -32,7 +32,7 @@ it('orders by every column, up and down, and leaves equal ones as they were foun
   expect(at('found')).toEqual([0, 1, 2, 3])
 })
 
-it('goes from up to down to as they were found', () => {
+it('cycles through ascending, descending and as found', () => {
   const up = nextOrder(kFound, 'name')
   expect(up).toEqual({ by: 'name', down: false })
   expect(nextOrder(up, 'name')).toEqual({ by: 'name', down: true })
@@ -40,12 +40,12 @@ it('goes from up to down to as they were found', () => {
   expect(nextOrder(up, 'begin')).toEqual({ by: 'begin', down: false })
 })
 
-it('keeps what has every word that was typed', () => {
+it('keeps answers that contain every typed word', () => {
   expect(filtered(list, ' ÉTÉ  vil ').map((one) => one.at)).toEqual([3])
   expect(filtered(list, '')).toBe(list)
 })
 
-it('orders names word by word, numbers in them as numbers', () => {
+it('sorts names word by word, with numbers by value', () => {
   const names = ['VANNES MATIN', 'VANNES', 'ÉTÉ 10', 'ÉTÉ 9', 'VANNES BREST']
   expect(
     ordered(
@@ -56,7 +56,7 @@ it('orders names word by word, numbers in them as numbers', () => {
   ).toEqual(['ÉTÉ 9', 'ÉTÉ 10', 'VANNES', 'VANNES BREST', 'VANNES MATIN'])
 })
 
-it('says in the address how answers are ordered', () => {
+it('writes the order to the address', () => {
   for (const order of [
     { by: 'name', down: true },
     { by: '$1', down: false },

@@ -1,6 +1,6 @@
 import type { Answer, Match } from './answers'
 
-/** What answers can be ordered by; `found` is the server's own order. */
+/** The sort keys of answers; `found` is the server's own order. */
 export type SortKey = 'found' | 'recording' | 'tier' | 'name' | 'begin' | 'end' | 'duration' | 'distance' | 'match' | `$${number}`
 export interface Order {
   readonly by: SortKey
@@ -8,13 +8,13 @@ export interface Order {
 }
 export const kFound: Order = { by: 'found', down: false }
 
-/** What a click on a column's head asks for: up, then down, then as they were found. */
+/** Returns the order after a click on a column's header: ascending, then descending, then as found. */
 export function nextOrder(order: Order, by: SortKey): Order {
   if (order.by !== by) return { by, down: false }
   return order.down ? kFound : { by, down: true }
 }
 
-/** An order as the address has it: `name`, `-duration`. */
+/** Returns an order as written in the address: `name`, `-duration`. */
 export function orderText({ by, down }: Order): string {
   return down ? `-${by}` : by
 }
@@ -23,7 +23,7 @@ export function orderOf(text: string | undefined): Order {
   return by ? { by: by as SortKey, down: minus === '-' } : kFound
 }
 
-/** The answers that have what was typed in their name, recording or tier; case does not count. */
+/** Returns the answers whose name, recording or tier contains the typed text; case is ignored. */
 export function filtered(answers: readonly Answer[], wanted: string): readonly Answer[] {
   const words = wanted.toLowerCase().split(/\s+/).filter(Boolean)
   if (words.length === 0) return answers
@@ -33,7 +33,7 @@ export function filtered(answers: readonly Answer[], wanted: string): readonly A
   })
 }
 
-/** Those answers in an order; equal ones stay as they were found. */
+/** Sorts the answers; equal ones stay in the order found. */
 export function ordered(answers: readonly Answer[], { by, down }: Order, language: string): readonly Answer[] {
   if (by === 'found') return answers
   const value = textOf(by) ? rankOf(answers, textOf(by)!, language) : numberOf(by)
@@ -62,8 +62,8 @@ function textOf(by: SortKey): ((answer: Answer) => string) | undefined {
 }
 
 /**
- * The place of each text among all. A language's own comparing is slow, and names of sequences are many but made of few words: so
- * words are compared, once each, and texts then by the numbers of their words.
+ * Returns the rank of each text. Locale-aware comparison is slow, and sequence names are many but consist of few words: so each word is compared once, and
+ * texts then by the ranks of their words.
  */
 function rankOf(answers: readonly Answer[], text: (answer: Answer) => string, language: string): (answer: Answer) => number {
   const texts = [...new Set(answers.map(text))],

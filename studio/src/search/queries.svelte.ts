@@ -2,20 +2,20 @@ import { asked, keep, merged, readKept, remove, rename, restore, type Kept, type
 
 const kKey = 'signweave.queries'
 
-/** The queries that this browser keeps for its user. */
+/** The user's queries stored in this browser. */
 export class Queries {
   kept = $state.raw<Kept>(read())
-  /** Set where the browser stores nothing: all is kept until the page is left. */
+  /** Set if the browser cannot store anything: the queries then last until the page is left. */
   unstored = $state(false)
-  /** The last one that was removed or replaced by another of its name, and where it was. */
+  /** The last query that was removed or replaced by another of its name, and its position. */
   removed = $state.raw<{ readonly query: SavedQuery; readonly at: number; readonly replaced: boolean } | undefined>()
 
-  /** What has a name; none where it is free. */
+  /** Returns the query with a name; undefined if the name is free. */
   named(name: string): SavedQuery | undefined {
     return this.kept.saved.find((one) => one.name === name.trim())
   }
   keep(name: string, text: string): void {
-    // Another window may have kept one of that name meanwhile.
+    // Another window may have saved one with that name meanwhile.
     const { saved } = this.unstored ? this.kept : read()
     const at = saved.findIndex((one) => one.name === name.trim())
     this.removed = at >= 0 && saved[at].text !== text.trim() ? { query: saved[at], at, replaced: true } : undefined
@@ -41,7 +41,7 @@ export class Queries {
     this.change((kept) => merged(kept, more))
   }
 
-  /** Another window may have changed them meanwhile: what is stored counts. */
+  /** Another window may have changed them meanwhile: the stored state counts. */
   private change(to: (kept: Kept) => Kept): void {
     this.kept = to(this.unstored ? this.kept : read())
     try {

@@ -1,19 +1,19 @@
-/** A query that was kept under a name. */
+/** A query saved under a name. */
 export interface SavedQuery {
   readonly name: string
   readonly text: string
 }
 export interface Kept {
   readonly saved: readonly SavedQuery[]
-  /** Asked lately, the newest first. */
+  /** Recent queries, newest first. */
   readonly recent: readonly string[]
 }
 export const kNothingKept: Kept = { saved: [], recent: [] }
 const kRecent = 20
-/** The key of a file of queries, and what it says of its layout. */
+/** The key of a file of queries, and its format version. */
 const kFile = 'signweave queries'
 
-/** What was stored; what cannot be read there counts as nothing. */
+/** Reads the stored state; unreadable parts are ignored. */
 export function readKept(stored: string | null | undefined): Kept {
   try {
     const { saved, recent } = JSON.parse(stored ?? '') as Partial<Kept>
@@ -26,13 +26,13 @@ export function readKept(stored: string | null | undefined): Kept {
   }
 }
 
-/** Under this name; in place of what had it. */
+/** Saves a query under a name, replacing any previous one. */
 export function keep(kept: Kept, name: string, text: string): Kept {
   const at = kept.saved.findIndex((one) => one.name === name)
   return { ...kept, saved: at < 0 ? [...kept.saved, { name, text }] : kept.saved.with(at, { name, text }) }
 }
 
-/** Another name that nothing else has; the same where the name is empty. */
+/** Renames a query to a free name; unchanged if the name is empty. */
 export function rename(kept: Kept, from: string, to: string): Kept {
   const at = kept.saved.findIndex(({ name }) => name === from)
   const wanted = to.trim()
@@ -44,19 +44,19 @@ export function remove(kept: Kept, name: string): Kept {
   return { ...kept, saved: kept.saved.filter((one) => one.name !== name) }
 }
 
-/** Puts one that was removed back where it was; one that was replaced takes its name again. */
+/** Restores a removed query at its position; a replaced one takes its name again. */
 export function restore(kept: Kept, query: SavedQuery, at: number, replaced = false): Kept {
   if (replaced && kept.saved.some(({ name }) => name === query.name)) return keep(kept, query.name, query.text)
   return { ...kept, saved: kept.saved.toSpliced(at, 0, { ...query, name: freeName(kept.saved, query.name) }) }
 }
 
-/** What was asked stands first, and once. */
+/** Moves a query to the front of the recent ones, without duplicates. */
 export function asked(kept: Kept, text: string): Kept {
   const one = text.trim()
   return one ? { ...kept, recent: [one, ...kept.recent.filter((other) => other !== one)].slice(0, kRecent) } : kept
 }
 
-/** Adds queries of a file. One that is there already is not added again; another of the same name gets a number. */
+/** Adds queries of a file. Existing ones are not added again; a different query with the same name gets a number. */
 export function merged(kept: Kept, more: readonly SavedQuery[]): Kept {
   let saved = kept.saved
   for (const query of more) {
@@ -70,7 +70,7 @@ export function writeFile(saved: readonly SavedQuery[]): string {
   return JSON.stringify({ [kFile]: 1, queries: saved }, null, 2) + '\n'
 }
 
-/** The queries of a file; none where it is no such file. */
+/** Reads the queries of a file; undefined if it is no such file. */
 export function readFile(text: string): readonly SavedQuery[] | undefined {
   try {
     const file = JSON.parse(text) as Record<string, unknown>

@@ -3,7 +3,7 @@ import { markAt, offsetOf, scan } from './scan'
 
 const kinds = (text: string) => scan(text).map(({ kind, text: value }) => `${kind} ${value}`)
 
-it('cuts a query into what the language knows', () => {
+it('splits a query into tokens', () => {
   expect(kinds('gloss = "LE \\"M\\"" & !(tier("A")=~/a\\/b|c/i)')).toEqual([
     'word gloss',
     'symbol =',
@@ -34,20 +34,20 @@ it('cuts a query into what the language knows', () => {
   expect(kinds('end(hand).height')).toEqual(['word end', 'symbol (', 'word hand', 'symbol )', 'word .height'])
 })
 
-it('goes on to the end where something is not finished', () => {
+it('reads to the end if something is unfinished', () => {
   expect(scan('gloss = "VAN')[2]).toEqual({ kind: 'text', begin: 8, end: 12, text: 'VAN', closed: false })
   expect(scan('a =~ /x')[2].closed).toBe(false)
   expect(scan('-> [')[1]).toEqual({ kind: 'gap', begin: 3, end: 4, text: '', closed: false })
 })
 
-it('knows where a line and a column are, counted in characters', () => {
+it('converts a line and column, counted in characters', () => {
   expect(offsetOf('glos = "X"', { line: 1, column: 1 })).toBe(0)
   expect(offsetOf('gloss = "😀" &\n phase = strok', { line: 2, column: 10 })).toBe('gloss = "😀" &\n phase = '.length)
   expect(offsetOf('gloss = "😀" & x', { line: 1, column: 15 })).toBe('gloss = "😀" & '.length)
   expect(offsetOf('abc', { line: 1, column: 99 })).toBe(3)
 })
 
-it('marks the token at a fault, one letter within it, and nothing behind the end', () => {
+it('marks the token at a fault, one letter within it, and nothing after the end', () => {
   expect(markAt('glos = "X"', 0)).toEqual({ begin: 0, end: 4 })
   expect(markAt('glos = "X"', 7)).toEqual({ begin: 7, end: 10 })
   expect(markAt('gloss = "X', 8)).toEqual({ begin: 8, end: 9 })

@@ -1,20 +1,20 @@
 import type { FaultPlace } from '../api/fault'
 
-/** One token of a query, as docs/query.md has them; what is not finished yet is one, too. */
+/** One token of a query, as defined in docs/query.md; an unfinished one counts, too. */
 export interface Token {
   readonly kind: 'word' | 'text' | 'regex' | 'variable' | 'symbol' | /** `[..500ms]` */ 'gap'
   readonly begin: number
   readonly end: number
-  /** Of a text: what stands in the quotes, with its escapes resolved. */
+  /** For a text: the content of the quotes, with escapes resolved. */
   readonly text: string
-  /** Whether a text, regex or gap has its end. */
+  /** Whether a text, regex or gap is closed. */
   readonly closed: boolean
 }
 
 const kSymbols = ['->', '!=', '=~', '<=', '>=', '(', ')', '&', '|', '!', '@', ',', '=', '<', '>', '~', ';', ']']
 const kEndsWord = /[\s"()[\]&|!=<>~/@,;]|->/y
 
-/** Cuts a query into tokens. Never throws: people complete what is half typed. */
+/** Splits a query into tokens. Never throws, because completion runs on unfinished queries. */
 export function scan(text: string): Token[] {
   const tokens: Token[] = []
   let at = 0
@@ -33,7 +33,7 @@ export function scan(text: string): Token[] {
 function tokenFrom(text: string, begin: number, before: Token | undefined): Token {
   const first = text[begin]
   if (first === '"') return enclosed('text', text, begin, '"')
-  // A slash right behind a word is that of a unit: 1.5 m/s.
+  // A slash directly after a word belongs to a unit: 1.5 m/s.
   if (first === '/' && !(before?.kind === 'word' && before.end === begin)) return enclosed('regex', text, begin, '/')
   if (first === '[') return enclosed('gap', text, begin, ']')
   const symbol = kSymbols.find((one) => text.startsWith(one, begin))
@@ -62,7 +62,7 @@ function enclosed(kind: 'text' | 'regex' | 'gap', text: string, begin: number, l
   return { kind, begin, end, text: value, closed }
 }
 
-/** Where a place that the server told is, in the units of a JavaScript text. */
+/** Converts the server's position to an offset in a JavaScript string. */
 export function offsetOf(text: string, { line, column }: FaultPlace): number {
   const lines = text.split('\n')
   const before = lines.slice(0, line - 1).reduce((sum, one) => sum + one.length + 1, 0)
@@ -70,7 +70,7 @@ export function offsetOf(text: string, { line, column }: FaultPlace): number {
   return Math.min(text.length, before + letters.join('').length)
 }
 
-/** What is marked where a fault is: the token there, else one letter; of length 0 at the end. */
+/** Returns the range marked for a fault: the token there, otherwise one letter; empty at the end. */
 export function markAt(text: string, offset: number): { readonly begin: number; readonly end: number } {
   const token = scan(text).find(({ begin, end }) => begin <= offset && offset < end)
   if (token && token.begin === offset) return { begin: offset, end: token.closed ? token.end : token.begin + 1 }

@@ -3,7 +3,7 @@ import { crc32, zipOf } from './zip'
 
 const bytes = (text: string) => new TextEncoder().encode(text)
 
-/** What an archive's directory says, and the bytes that it points to. */
+/** Returns the entries of an archive's directory, and the bytes to which they point. */
 function read(archive: Uint8Array<ArrayBuffer>) {
   const view = new DataView(archive.buffer),
     end = archive.length - 22
@@ -27,9 +27,9 @@ function read(archive: Uint8Array<ArrayBuffer>) {
   return found
 }
 
-it('sums as ZIP does', () => expect(crc32(bytes('123456789'))).toBe(0xcbf43926))
+it('computes checksums as in ZIP', () => expect(crc32(bytes('123456789'))).toBe(0xcbf43926))
 
-it('makes an archive whose directory leads to every file', async () => {
+it('creates an archive whose directory points to every file', async () => {
   const big = new Uint8Array(70_000).map((_, i) => i)
   const files = [
     { name: 'été 1.bvh', bytes: bytes('HIERARCHY') },

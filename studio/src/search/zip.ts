@@ -10,14 +10,14 @@ const kTable = Uint32Array.from({ length: 256 }, (_, n) => {
   return c >>> 0
 })
 
-/** CRC-32, as ZIP has it. */
+/** CRC-32, as defined for ZIP. */
 export function crc32(bytes: Uint8Array): number {
   let crc = 0xffffffff
   for (let i = 0; i < bytes.length; ++i) crc = kTable[(crc ^ bytes[i]) & 0xff] ^ (crc >>> 8)
   return (crc ^ 0xffffffff) >>> 0
 }
 
-/** Files in one archive, not compressed; names are UTF-8. At most 65535 of them, and 4 GB together. */
+/** Packs files into one archive, uncompressed; names are UTF-8. At most 65535 files, and 4 GB in total. */
 export function zipOf(files: readonly Packed[]): Blob {
   const parts: Uint8Array<ArrayBuffer>[] = [],
     directory: Uint8Array<ArrayBuffer>[] = []
@@ -42,7 +42,7 @@ export function zipOf(files: readonly Packed[]): Blob {
   return new Blob([...parts, ...directory, new Uint8Array(end.buffer)], { type: 'application/zip' })
 }
 
-/** What stands before a file, and again in the directory; `fields` is where what both have begins. */
+/** Writes the header before a file, or that in the directory; `fields` is where their common fields begin. */
 function header(mark: number, length: number, name: Uint8Array, crc: number, size: number, fields: number): Uint8Array<ArrayBuffer> {
   const bytes = new Uint8Array(length + name.length),
     view = new DataView(bytes.buffer)
@@ -50,7 +50,7 @@ function header(mark: number, length: number, name: Uint8Array, crc: number, siz
   if (fields === 6) view.setUint16(4, 20, true)
   view.setUint16(fields, 20, true)
   view.setUint16(fields + 2, 0x0800, true) // names are UTF-8
-  view.setUint16(fields + 8, 0x21, true) // 1 January 1980: the same files give the same archive
+  view.setUint16(fields + 8, 0x21, true) // 1 January 1980: the same files produce the same archive
   view.setUint32(fields + 10, crc, true)
   view.setUint32(fields + 14, size, true)
   view.setUint32(fields + 18, size, true)

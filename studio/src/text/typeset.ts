@@ -1,4 +1,4 @@
-/** A text in French as it is typeset: a narrow blank that does not break (U+202F) before ; : ! ? » and %, and after «. Of lists and tables every text. */
+/** Sets French text: a narrow no-break space (U+202F) before ; : ! ? » and %, and after «. For lists and tables, sets every text in them. */
 export function typeset<T>(text: T): T {
   if (typeof text === 'string') return text.replace(/ (?=[;:!?»%](?:$|[\s.,)…»\u202f]))/g, '\u202f').replace(/« /g, '«\u202f') as T
   if (Array.isArray(text)) return text.map((one: unknown) => typeset(one)) as T

@@ -1,11 +1,11 @@
-/** Ends of annotations that can be dragged, in ms of annotation time; `tier` counts the timeline's rows. */
+/** Borders of annotations that can be dragged, in ms of annotation time; `tier` counts the timeline's rows. */
 export interface Borders {
-  /** Whether an end lies within `reach` ms. */
+  /** Returns whether a border lies within `reach` ms. */
   isNear(tier: number, ms: number, reach: number): boolean
-  /** Takes the end that lies there; false where none does. */
+  /** Grabs the border there; returns false if there is none. */
   grab(tier: number, ms: number, reach: number): boolean
-  /** Moves the one that was taken. */
+  /** Moves the grabbed border. */
   drag(ms: number): void
-  /** Lets go of it. */
+  /** Releases it. */
   drop(): void
 }

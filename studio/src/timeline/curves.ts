@@ -1,6 +1,6 @@
 import type { FrameStore } from '../motion/frame_store'
 
-/** What the curves beneath the tiers show; all are of the wrists, in model space (Y up), metres and metres a second. */
+/** The curves below the tiers; all are of the wrists, in model space (Y up), metres and metres a second. */
 export const kCurves = ['height', 'sideways', 'depth', 'handSpeed'] as const
 export type Curve = (typeof kCurves)[number]
 
@@ -15,7 +15,7 @@ export interface Extent {
   readonly high: number
 }
 
-/** The least and greatest value of both hands over the frames that have come, looked at every `stride` frames, with a margin. */
+/** Returns the least and greatest value of both hands over the loaded frames, sampled every `stride` frames, with a margin. */
 export function extentOf(store: FrameStore, curve: Curve, stride = Math.max(1, Math.floor(store.length / 2000))): Extent {
   let low = curve === 'handSpeed' ? 0 : Infinity,
     high = curve === 'handSpeed' ? 0.5 : -Infinity

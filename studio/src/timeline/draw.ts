@@ -9,7 +9,7 @@ export const kRulerHeight = 24
 export const kTierHeight = 25
 export const kCurveHeight = 50
 
-/** The colours of the theme, read where the theme changes. */
+/** The colours of the theme, read when the theme changes. */
 export type Colors = Readonly<Record<string, string>>
 const kColorNames = [
   'panel',
@@ -52,7 +52,7 @@ export interface Drawing {
   readonly store: FrameStore
   readonly curves: readonly Curve[]
   readonly colors: Colors
-  /** Decimal mark and the like. */
+  /** For number formatting. */
   readonly language: string
 }
 
@@ -60,7 +60,7 @@ export function heightOf(tiers: number, curves: number): number {
   return kRulerHeight + tiers * kTierHeight + curves * kCurveHeight
 }
 
-/** Draws everything of the timeline that does not move with the picture. */
+/** Draws everything on the timeline that does not move during playback. */
 export function drawTimeline(context: CanvasRenderingContext2D, drawing: Drawing): void {
   const { window, document, colors } = drawing
   const width = window.pixels
@@ -96,7 +96,7 @@ function drawRuler(context: CanvasRenderingContext2D, { window, colors, originMs
   line(context, 0, kRulerHeight - 0.5, window.pixels, kRulerHeight - 0.5, colors.line, 1)
 }
 
-/** What is decided is told by a sign, too, not by how it looks alone. */
+/** States are also marked by a symbol, not only by their style. */
 const kStates: Readonly<Record<NonNullable<Annotation['state']>, string>> = { open: '?', accepted: '✓', unseen: '✓?', rejected: '✗' }
 
 function drawTier(context: CanvasRenderingContext2D, { window, colors, originMs }: Drawing, tier: Tier, y: number): void {
@@ -156,10 +156,10 @@ function drawCurve(context: CanvasRenderingContext2D, { window, colors, store, l
   }
 }
 
-/** Most frames of a pixel that are looked at: of an hour there are hundreds, and a drawing must not hold up the picture. */
+/** The maximum number of frames sampled per pixel: an hour has hundreds, and drawing must not delay playback. */
 const kOfPixel = 8
 
-/** Where there are more frames than pixels, the least and greatest of each pixel. */
+/** If there are more frames than pixels, draws the minimum and maximum of each pixel. */
 function drawFrames(
   context: CanvasRenderingContext2D,
   store: FrameStore,
@@ -172,7 +172,7 @@ function drawFrames(
   const perPixel = Math.max(1, Math.floor(((last - first) / window.pixels) * 0.75))
   const stride = Math.ceil(perPixel / kOfPixel)
   let drawing = false
-  // From a whole multiple, so that the same frames are looked at wherever the window begins.
+  // Starts at a multiple, so that the same frames are sampled wherever the window begins.
   for (let frame = first - (first % perPixel); frame <= last; frame += perPixel) {
     let low = Infinity,
       high = -Infinity
@@ -193,7 +193,7 @@ function drawFrames(
   }
 }
 
-/** The first annotation of a tier that ends after `ms`, by binary search. */
+/** Returns the index of the first annotation of a tier that ends after `ms`, by binary search. */
 export function firstEndingAfter(tier: Tier, ms: number): number {
   let low = 0,
     high = tier.annotations.length

@@ -1,9 +1,9 @@
 import type { AnnotationDocument } from '../annotation/document'
 
-/** How a box of the timeline is coloured. */
+/** Determines the colour of a box on the timeline. */
 export type BoxKind = 'gloss' | 'preparation' | 'stroke' | 'retraction' | 'source' | 'junction' | 'other'
 
-/** By the label of a phase, in the languages that corpora use; else by the tier. */
+/** By the label of a phase, in the languages that corpora use; otherwise by the tier. */
 export function kindOf(tierName: string, depth: number, label: string): BoxKind {
   const phase = label.toLowerCase()
   if (/^(prep|préparation|vorbereitung)/.test(phase)) return 'preparation'
@@ -14,7 +14,7 @@ export function kindOf(tierName: string, depth: number, label: string): BoxKind 
   return depth === 0 ? 'gloss' : 'other'
 }
 
-/** The tier that arrow keys walk along: the first one without a parent that has annotations. */
+/** Returns the tier that arrow keys step through: the first one without a parent that has annotations. */
 export function signTier(document: AnnotationDocument) {
   return document.tiers.find(({ depth, annotations }) => depth === 0 && annotations.length > 0)
 }

@@ -1,4 +1,4 @@
-/** The stretch of time that the timeline shows, in seconds from frame 0, and how it lies on the screen. */
+/** The time span that the timeline shows, in seconds from frame 0, and its mapping to the screen. */
 export class TimeWindow {
   begin = 0
   end = 1
@@ -25,7 +25,7 @@ export class TimeWindow {
     this.end = Math.max(0.1, this.duration)
   }
 
-  /** By a factor (above 1 nearer), with the moment at `about` staying where it is. */
+  /** Zooms by a factor (above 1 zooms in); the moment at `about` stays in place. */
   zoom(factor: number, about: number): void {
     const span = Math.min(Math.max(0.1, this.duration), Math.max(0.1, this.span / factor))
     const part = Math.min(1, Math.max(0, (about - this.begin) / this.span))
@@ -40,7 +40,7 @@ export class TimeWindow {
     this.clamp()
   }
 
-  /** Turns the page where a moment is outside. True where it did. */
+  /** Pages to a moment outside the window. Returns whether it did. */
   follow(seconds: number): boolean {
     if (seconds >= this.begin && seconds <= this.end) return false
     this.move(seconds - this.begin - 0.05 * this.span)
@@ -54,7 +54,7 @@ export class TimeWindow {
   }
 }
 
-/** A distance of ticks that are at least `least` seconds apart: 1, 2 or 5 times a power of ten. */
+/** Returns a tick distance of at least `least` seconds: 1, 2 or 5 times a power of ten. */
 export function tickStep(least: number): number {
   const power = 10 ** Math.floor(Math.log10(least))
   for (const factor of [1, 2, 5]) if (factor * power >= least - 1e-12) return factor * power

@@ -1,4 +1,4 @@
-/** Seconds as m:ss.mmm, or with fewer digits; annotation time may lie before 0. */
+/** Formats seconds as m:ss.mmm, or with fewer digits; annotation time may be negative. */
 export function clock(seconds: number, digits = 3): string {
   const unit = 10 ** digits
   const parts = Math.round(Math.abs(seconds) * unit)

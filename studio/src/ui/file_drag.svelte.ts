@@ -1,14 +1,14 @@
-/** Whether it is files of the disk that are dragged. A picture of a page is a file to browsers, too, but comes with its text. */
+/** Whether files of the disk are being dragged. Browsers treat an image of a page as a file, too, but it comes with its text. */
 export function isOfFiles({ dataTransfer }: DragEvent): boolean {
   return dataTransfer !== null && dataTransfer.types.includes('Files') && !dataTransfer.types.includes('text/html')
 }
 
-/** Browsers tell of what is dragged over a page at least three times a second. */
+/** Browsers send dragover events at least three times a second. */
 const kSilence = 1000
 
 /**
- * Whether files are over something. What is entered and left within does not count: a child that goes away is never left, nor is the
- * window always, so that silence, too, is the end.
+ * Whether files are over an element. Enter and leave events within it are not counted: a removed child never sends one, and nor does the window always, so
+ * silence also means the end.
  */
 export class FileDrag {
   over = $state(false)
@@ -19,7 +19,7 @@ export class FileDrag {
     clearTimeout(this.timer)
     this.timer = setTimeout(() => (this.over = false), kSilence)
   }
-  /** For `dragleave` of an element and all that is in it. */
+  /** For `dragleave` of an element and its descendants. */
   left({ relatedTarget }: DragEvent, whole: Node): void {
     if (!(relatedTarget instanceof Node && whole.contains(relatedTarget))) this.gone()
   }

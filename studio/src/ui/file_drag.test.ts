@@ -7,13 +7,13 @@ afterEach(() => void vi.useRealTimers())
 const leaving = (relatedTarget: Node | null) => ({ relatedTarget }) as unknown as DragEvent
 const dragging = (...types: string[]) => ({ dataTransfer: { types } }) as unknown as DragEvent
 
-it('tells files of the disk from text, links and pictures of a page', () => {
+it('distinguishes files of the disk from text, links and pictures of a page', () => {
   expect(isOfFiles(dragging('Files'))).toBe(true)
   expect(isOfFiles(dragging('text/plain'))).toBe(false)
   expect(isOfFiles(dragging('text/uri-list', 'text/html', 'Files'))).toBe(false)
   expect(isOfFiles({ dataTransfer: null } as DragEvent)).toBe(false)
 })
-it('lasts while something within is entered and left, and ends where the whole is left', () => {
+it('lasts while descendants are entered and left, and ends when the whole is left', () => {
   const drag = new FileDrag(),
     child = document.body.appendChild(document.createElement('p'))
   drag.here()
@@ -22,7 +22,7 @@ it('lasts while something within is entered and left, and ends where the whole i
   drag.left(leaving(null), document)
   expect(drag.over).toBe(false)
 })
-it('ends where nothing is told of it any more', () => {
+it('ends when no more drag events arrive', () => {
   const drag = new FileDrag()
   drag.here()
   vi.advanceTimersByTime(900)

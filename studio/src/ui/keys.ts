@@ -1,6 +1,6 @@
 import type { Text } from '../text/en'
 
-/** What a key does. */
+/** The action of a key. */
 export type Action =
   | 'play'
   | 'back'
@@ -39,7 +39,7 @@ export type Action =
   | 'full'
   | 'help'
 
-/** One line of the help: the keys as they are printed, what they do, in the same order. */
+/** One line of the help: the keys as printed, and their actions in the same order. */
 export interface KeyRow {
   readonly keys: readonly string[]
   readonly actions: readonly Action[]
@@ -84,11 +84,11 @@ const kPrinted: Readonly<Record<string, string>> = {
   H: '?',
 }
 
-/** What a key pressed does; none where it does nothing here. Without `characters` only keys that type nothing do, and Space. */
+/** Returns the action of a pressed key; undefined if it has none here. Without `characters`, only Space and keys that type nothing have one. */
 export function actionOf(event: Pick<KeyboardEvent, 'key' | 'code' | 'shiftKey' | 'ctrlKey' | 'altKey' | 'metaKey'>, characters = true): Action | undefined {
   if (event.ctrlKey || event.altKey || event.metaKey) return undefined
   if (!characters && event.key.length === 1 && event.key !== ' ') return undefined
-  // The row of digits is reached with Shift on some keyboards, so the place of the key counts there.
+  // Some keyboards require Shift for the row of digits, so the key's position counts there.
   const digit = /^Digit([0-6])$/.exec(event.code)?.[1]
   const printed = digit ?? kPrinted[event.key] ?? (event.key.length === 1 ? event.key.toUpperCase() : event.key)
   const wanted = event.shiftKey && event.key.startsWith('Arrow') ? `Shift ${printed}` : printed
@@ -99,7 +99,7 @@ export function actionOf(event: Pick<KeyboardEvent, 'key' | 'code' | 'shiftKey' 
   return undefined
 }
 
-/** Whether a key belongs to what has the focus: typing, or a button or slider that takes it. */
+/** Whether a key belongs to the focused element: a text field, or a button or slider that uses it. */
 export function belongsToFocus(event: KeyboardEvent): boolean {
   const target = event.target as HTMLElement | null
   if (!target) return false

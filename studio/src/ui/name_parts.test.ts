@@ -1,7 +1,7 @@
 import { expect, it } from 'vitest'
 import { nameParts } from './name_parts'
 
-it('keeps the end of a name that tells it from others, with the ending of a file', () => {
+it('keeps the distinctive end of a name, with the file extension', () => {
   expect(nameParts('bulletin-meteo-12')).toEqual({ begin: 'bulletin-', end: 'meteo-12' })
   expect(nameParts('bulletin-meteo-12.bvh')).toEqual({ begin: 'bulletin-', end: 'meteo-12.bvh' })
   expect(nameParts('bulletin-meteo-12.face.csv')).toEqual({ begin: 'bulletin-', end: 'meteo-12.face.csv' })
@@ -9,7 +9,7 @@ it('keeps the end of a name that tells it from others, with the ending of a file
   expect(nameParts('entretien 3.14159')).toEqual({ begin: 'entretien ', end: '3.14159' })
   expect(nameParts('bulletin-meteo-1')).toEqual({ begin: 'bulletin-', end: 'meteo-1' })
 })
-it('parts no short name, and no letter', () => {
+it('splits no short name, and no letter', () => {
   expect(nameParts('meteo')).toEqual({ begin: 'meteo', end: '' })
   expect(nameParts('ISL Thanks 1')).toEqual({ begin: 'ISL Thanks 1', end: '' })
   const accents = `bulletin-${'e\u0301'.repeat(8)}`

@@ -6,7 +6,7 @@ export type Theme = 'dark' | 'light'
 
 const kTexts: Record<Language, Text> = { en, fr }
 
-/** What was chosen before, where it is one of `possible`. */
+/** Returns the stored value, if it is one of `possible`. */
 function stored<T extends string>(key: string, possible: readonly T[]): T | undefined {
   const value = read(key)
   return possible.find((one) => one === value)
@@ -15,7 +15,7 @@ function read(key: string): string | undefined {
   try {
     return localStorage.getItem(`signweave.${key}`) ?? undefined
   } catch {
-    return undefined // a page that may store nothing works with what the system prefers
+    return undefined // if storage is forbidden, the system's settings apply
   }
 }
 function store(key: string, value: string): void {
@@ -26,13 +26,13 @@ function store(key: string, value: string): void {
   }
 }
 
-/** Language, theme, keys and who signs: as chosen before, else as the system has them. */
+/** Language, theme, keys and character: as chosen before, otherwise as the system prefers. */
 class Preferences {
   language = $state<Language>(stored('language', ['en', 'fr']) ?? (navigator.language.startsWith('fr') ? 'fr' : 'en'))
   theme = $state<Theme>(stored('theme', ['dark', 'light']) ?? (matchMedia('(prefers-color-scheme: light)').matches ? 'light' : 'dark'))
-  /** Whether keys that are letters, digits or signs do something. Who speaks to a computer instead of typing switches them off. */
+  /** Whether letters, digits and symbols act as keyboard shortcuts. Users of speech input switch them off. */
   characterKeys = $state(stored('keys', ['off']) === undefined)
-  /** Who signs: a character's name, or `drawn` for the body that the studio draws; none where nobody was chosen yet. */
+  /** The body: a character's name, or `drawn` for the studio's plain body; undefined if none was chosen yet. */
   body = $state<string | undefined>(read('body'))
   text = $derived(kTexts[this.language])
 
@@ -56,12 +56,12 @@ class Preferences {
 
 export const preferences = new Preferences()
 
-/** A text with its `{…}` filled in. */
+/** Replaces the placeholders `{…}` of a text. */
 export function filled(text: string, values: Readonly<Record<string, string | number>>): string {
   return text.replace(/\{(\w+)\}/g, (whole, name: string) => String(values[name] ?? whole))
 }
 
-/** A number as the language writes it. */
+/** Formats a number in the user's language. */
 export function number(value: number, digits = 0): string {
   return value.toLocaleString(preferences.language, { minimumFractionDigits: digits, maximumFractionDigits: digits })
 }

@@ -1,7 +1,7 @@
 import { expect, it } from 'vitest'
 import { addressOf, parseRoute, wayBack, withRecording, type Route } from './route'
 
-it('says in the address what is shown, and reads it back', () => {
+it('writes the view to the address, and reads it back', () => {
   const routes: Route[] = [
     { page: 'home' },
     { page: 'recordings', database: 'demo' },
@@ -16,12 +16,12 @@ it('says in the address what is shown, and reads it back', () => {
   for (const route of routes) expect(parseRoute(addressOf(route))).toEqual(route)
 })
 
-it('shows the start where the address says nothing, and the recordings of a database where it says nothing else that it knows', () => {
+it('shows the start page for an empty address, and the recordings of a database if nothing else is recognized', () => {
   for (const hash of ['', '#', '#/', '#/%E0%A4%A']) expect(parseRoute(hash)).toEqual({ page: 'home' })
   for (const hash of ['#/demo', '#/demo/nothing/x']) expect(parseRoute(hash)).toEqual({ page: 'recordings', database: 'demo' })
 })
 
-it('selects nothing where the span is none', () => {
+it('selects nothing if the span is invalid', () => {
   for (const span of ['', 'x', '5..5', '9..1', '1..']) expect(parseRoute(`#/demo/recording/meteo?span=${span}`)).toMatchObject({ span: undefined })
 })
 
@@ -30,7 +30,7 @@ it('leads to another recording', () => {
   expect(withRecording('#/demo/search', 'meteo')).toBe(undefined)
 })
 
-it('has a way back from what is not there', () => {
+it('has an address to return to from what does not exist', () => {
   expect(wayBack('#/demo/recording/gone?at=3')).toBe('#/demo')
   expect(wayBack('#/demo/phases/gone')).toBe('#/demo')
   expect(wayBack('#/no%20such')).toBe('#/')

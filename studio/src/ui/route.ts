@@ -1,4 +1,4 @@
-/** What is shown, as the address says it behind `#`, so that every view can be linked and the back key works. */
+/** The view, encoded in the address after `#`, so that every view can be linked and the back key works. */
 export type Route =
   | { readonly page: 'home' }
   | { readonly page: 'recordings'; readonly database: string }
@@ -8,30 +8,30 @@ export type Route =
       readonly recording: string
       readonly beside?: string
       readonly at: number
-      /** Selected, in ms of annotation time. */ readonly span?: readonly [number, number]
+      /** The selection, in ms of annotation time. */ readonly span?: readonly [number, number]
     }
   | { readonly page: 'sign'; readonly database: string; readonly utterance: string; readonly pace: 'fast' | 'live' }
   | Working
   | { readonly page: 'edit'; readonly database: string; readonly recording: string; readonly replace: readonly string[]; readonly swap?: string }
 
-/** A page that one works on. What it holds stands in the address as the page itself writes it, so that it can be linked, too. */
+/** A working page. Its state is in the address as the page itself writes it, so that it can be linked, too. */
 export interface Working {
   readonly page: WorkPage
   readonly database: string
-  /** Of `phases`, the recording. */ readonly recording?: string
+  /** For `phases`, the recording. */ readonly recording?: string
   readonly state: WorkState
 }
 export type WorkState = Readonly<Record<string, string>>
 export type WorkPage = (typeof kWorkPages)[number]
 export const kWorkPages = ['compose', 'search', 'import', 'phases', 'evaluate', 'compare', 'guide'] as const
 
-/** From what is not there, a recording or a database, the way back: to the database's recordings, else to the start. */
+/** Returns the address to go to from a missing recording or database: the database's recordings, otherwise the start page. */
 export function wayBack(hash: string): string {
   const [, database, , name] = hash.split('?')[0].split('/')
   return database && name ? `#/${database}` : '#/'
 }
 
-/** The same address of another recording; none where it names no recording. */
+/** Returns the address with another recording; undefined if it contains no recording. */
 export function withRecording(hash: string, recording: string): string | undefined {
   const [, database, page, name] = hash.split('?')[0].split('/')
   return name ? `#/${database}/${page}/${encodeURIComponent(recording)}` : undefined
@@ -99,7 +99,7 @@ export function addressOf(route: Route): string {
   }
 }
 
-/** `1200..3400`; none where it is no such text. */
+/** `1200..3400`; undefined if the text does not match. */
 function spanOf(text: string | null): readonly [number, number] | undefined {
   const [, from, to] = /^(-?\d+)\.\.(-?\d+)$/.exec(text ?? '') ?? []
   return from !== undefined && Number(from) < Number(to) ? [Number(from), Number(to)] : undefined

@@ -1,13 +1,13 @@
 import { expect, it } from 'vitest'
 import { heightOfRows, kMostPixels, scrollTo, shownRows } from './rows'
 
-it('draws what is in the window and a little more, where it belongs', () => {
+it('draws the visible rows and a few more, at their positions', () => {
   expect(shownRows(100, 20, 200, 100, 0)).toEqual({ first: 10, end: 15, top: 200 })
   expect(shownRows(3, 20, 0, 100)).toEqual({ first: 0, end: 3, top: 0 })
   expect(shownRows(0, 20, 0, 100)).toEqual({ first: 0, end: 0, top: 0 })
 })
 
-it('reaches every row of lists that are higher than a browser lets an element be', () => {
+it("reaches every row of lists higher than the browser's limit", () => {
   const count = 2_000_000
   expect(heightOfRows(count, 30)).toBe(kMostPixels)
   const last = shownRows(count, 30, kMostPixels - 600, 600, 0)
@@ -16,7 +16,7 @@ it('reaches every row of lists that are higher than a browser lets an element be
   expect(shownRows(count, 30, 0, 600, 0)).toEqual({ first: 0, end: 20, top: 0 })
 })
 
-it('brings a row into the window, and does not move where it is there', () => {
+it('scrolls to a row, and does not move if it is visible', () => {
   for (const count of [1000, 2_000_000]) {
     for (const row of [0, 1, 17, 500, count - 1]) {
       const scroll = scrollTo(row, count, 30, 0, 600)

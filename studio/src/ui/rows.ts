@@ -1,19 +1,19 @@
-/** Browsers let no element be higher than some 17 to 33 million pixels; rows beyond are reached by a scale between bar and list. */
+/** Browsers limit the height of an element to about 17 to 33 million pixels; for longer lists the scroll position is scaled. */
 export const kMostPixels = 8_000_000
 
-/** Which rows of a long list are drawn, and where, for a place of the scroll bar. */
+/** The rows of a long list that are drawn for a scroll position, and their position. */
 export interface ShownRows {
   readonly first: number
   readonly end: number
-  /** Pixels from the top of all to the first that is drawn. */ readonly top: number
+  /** Pixels from the top of the list to the first row drawn. */ readonly top: number
 }
 
-/** Pixels that a list of `count` rows takes at most. */
+/** Returns the height of a list of `count` rows in pixels, up to the limit. */
 export function heightOfRows(count: number, rowHeight: number): number {
   return Math.min(count * rowHeight, kMostPixels)
 }
 
-/** `scroll` and `height` are those of the window onto the list; `spare` rows are drawn on each side of it. */
+/** `scroll` and `height` are those of the visible area; `spare` rows are drawn on each side of it. */
 export function shownRows(count: number, rowHeight: number, scroll: number, height: number, spare = 6): ShownRows {
   const whole = count * rowHeight,
     shown = heightOfRows(count, rowHeight)
@@ -24,7 +24,7 @@ export function shownRows(count: number, rowHeight: number, scroll: number, heig
   return { first, end, top: Math.min(scroll, most) - at + first * rowHeight }
 }
 
-/** The place of the scroll bar at which a row is whole in the window; the one that is, where it is so already. */
+/** Returns the scroll position at which a row is completely visible; the current one if it already is. */
 export function scrollTo(row: number, count: number, rowHeight: number, scroll: number, height: number): number {
   const whole = count * rowHeight,
     shown = heightOfRows(count, rowHeight)

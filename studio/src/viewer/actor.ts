@@ -8,12 +8,12 @@ import { Lights } from './lights'
 import type { Proportions } from './proportions'
 import type { Detail } from './solids'
 
-/** A signer who plays many motions of one skeleton, one after the other within a picture: what the graphics card holds is there once. */
+/** A signer that plays many motions of one skeleton, one after the other within a frame: its graphics resources exist once. */
 export class Actor {
   readonly scene = new Scene()
   readonly model: Kinematics
   body: Body
-  /** How many cells play with it. */
+  /** The number of cells that use it. */
   users = 0
   private readonly lights: Lights
   private readonly root = new Vector3()
@@ -30,7 +30,7 @@ export class Actor {
     this.scene.add(this.body.object)
   }
 
-  /** Another body in place of this one, which is given up. */
+  /** Replaces the body; the previous one is disposed. */
   wear(body: Body): void {
     this.scene.remove(this.body.object)
     this.body.dispose()
@@ -39,7 +39,7 @@ export class Actor {
     this.lights.suit(body.shines)
   }
 
-  /** Takes a pose for the next picture. Allocates nothing. */
+  /** Takes a pose for the next frame. Allocates nothing. */
   show(pose: Pose): void {
     this.model.update(pose)
     this.body.show(pose)

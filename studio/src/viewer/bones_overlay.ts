@@ -28,7 +28,7 @@ export class BonesOverlay {
     }
   }
 
-  /** Takes the places of the model's last update. */
+  /** Takes the positions of the model's last update. */
   update(): void {
     for (let i = 0; i < this.pairs.length; ++i) {
       const from = 3 * this.pairs[i]

@@ -6,23 +6,23 @@ import type { Proportions } from './proportions'
 export const kViews = ['front', 'left', 'right', 'hands', 'face', 'whole'] as const
 export type View = (typeof kViews)[number]
 
-const kLens = 28 // degrees, vertical: long enough that hands before the body are not enlarged
+const kLens = 28 // degrees, vertical: narrow enough that hands in front of the body are not enlarged
 
-/** Seconds in which the camera goes two thirds of its way. */
+/** The time constant of the camera in seconds: it covers two thirds of the distance. */
 const kFollow = 0.13
 
 /** From a wrist to beyond the fingertips, metres of a signer of scale 1. */
 const kHand = 0.19
-/** How far an arm that hangs at ease goes down, of its length. */
+/** How far down a relaxed hanging arm reaches, as a fraction of its length. */
 const kHang = 0.9
 
-/** Frames the signer as sign language is filmed: from the hips, or from where hanging hands end, to above the head; hands stay in it. */
+/** Frames the signer as sign language is filmed: from the hips, or from the hands of hanging arms, to above the head; hands stay in view. */
 export class SignerCamera {
   readonly camera = new PerspectiveCamera(kLens, 1, 0.05, 50)
   /** Radians about the vertical from the front, to the signer's left; and up. */
   azimuth = 0
   elevation = 0
-  /** Times as near as the view asks for. */
+  /** Magnification relative to the view's default. */
   zoom = 1
   view: View = 'front'
   private readonly target = new Vector3()
@@ -30,7 +30,7 @@ export class SignerCamera {
   private readonly offset = new Vector3()
   private readonly along = new Vector3()
   private distance = 1
-  /** Metres that the distance still lacks. */
+  /** Metres missing from the current distance. */
   private away = 0
   private fresh = true
   private readonly height: number
@@ -45,7 +45,7 @@ export class SignerCamera {
 
   private readonly knuckles: number
 
-  /** With a hand (0 left, 1 right) the view of the hands is of that one alone. */
+  /** With a hand (0 left, 1 right), the view of the hands shows only that one. */
   constructor(
     private readonly signer: Proportions,
     private readonly facing: Facing,
@@ -55,7 +55,7 @@ export class SignerCamera {
     const feet = Math.min(at('left_foot') ?? 0, at('right_foot') ?? 0)
     const pelvis = at('pelvis') ?? 0.9 * signer.scale
     const top = at('head_top') ?? (at('head') ?? pelvis + 0.6 * signer.scale) + 0.19 * signer.scale
-    // Relative to the pelvis, which the camera follows slowly and level.
+    // Relative to the pelvis, which the camera follows slowly and horizontally.
     const low = Math.min(-0.16 * signer.scale, this.hanging() - pelvis),
       high = top - pelvis + 0.13 * signer.scale
     this.height = (low + high) / 2
@@ -70,7 +70,7 @@ export class SignerCamera {
     this.toFace = 0.42 * Math.max(0.12 * signer.scale, top - (at('head') ?? top - 0.19 * signer.scale))
   }
 
-  /** How high the fingertips of arms that hang are, along up. */
+  /** Returns the height of the fingertips of hanging arms, along up. */
   private hanging(): number {
     const { signer } = this
     const low = (['left', 'right'] as const).flatMap((side) => {
@@ -88,7 +88,7 @@ export class SignerCamera {
     this.fresh = true
   }
 
-  /** Looks from where another camera does; where it looked at something else before, at once. */
+  /** Adopts another camera's direction; if its own view was different, it jumps there at once. */
   like({ view, azimuth, elevation, zoom }: SignerCamera): void {
     this.fresh ||= view !== this.view
     this.view = view
@@ -102,7 +102,7 @@ export class SignerCamera {
     this.elevation = Math.min(1.4, Math.max(-1.2, this.elevation + elevation))
   }
 
-  /** Moves the camera for a picture of this shape, `elapsed` seconds after the one before; `model` must be up to date. */
+  /** Moves the camera for a picture with this aspect ratio, `elapsed` seconds after the previous one; `model` must be up to date. */
   update(model: Kinematics, aspect: number, elapsed: number): void {
     const { signer, facing, wanted } = this
     const place = model.positions
@@ -129,7 +129,7 @@ export class SignerCamera {
       wanted.set(place[root], place[root + 1], place[root + 2])
       wanted.addScaledVector(facing.up, this.view === 'whole' ? this.wholeHeight : this.height)
       if (this.view === 'whole') halfHeight = this.wholeHalf
-      // Hands that reach beyond take the frame with them.
+      // The view extends to hands that reach beyond it.
       for (const wrist of this.wrists) {
         if (wrist < 0) continue
         this.along.set(place[3 * wrist], place[3 * wrist + 1], place[3 * wrist + 2]).sub(wanted)
@@ -140,7 +140,7 @@ export class SignerCamera {
     }
     const lens = Math.tan((kLens * Math.PI) / 360)
     const distance = Math.max(halfHeight / lens, halfWidth / (lens * aspect)) / this.zoom + 0.15 * signer.scale
-    // Follows softly, so that a view of the hands does not shake; as fast where few pictures are drawn.
+    // Follows smoothly, so that a view of the hands does not shake; the speed is independent of the frame rate.
     const follow = this.fresh ? 1 : 1 - Math.exp(-elapsed / kFollow)
     this.target.lerp(wanted, follow)
     this.distance += (distance - this.distance) * follow
@@ -162,7 +162,7 @@ export class SignerCamera {
     this.camera.updateMatrixWorld()
   }
 
-  /** Whether following has come to rest, so that a picture that stands still need not be drawn again. */
+  /** Whether the camera has come to rest, so that a still picture need not be redrawn. */
   get settled(): boolean {
     return this.away < 1e-4 && this.target.distanceToSquared(this.wanted) < 1e-8
   }

@@ -10,8 +10,8 @@ interface Morph {
 }
 
 /**
- * A skinned character. Poses are ready to apply: local rotations of its own joints, found by name (`userData.joint`); face weights
- * go to morph targets of the same names (ARKit's).
+ * A skinned character. Poses can be applied directly: local rotations of its own joints, matched by name (`userData.joint`); face weights go to morph targets
+ * of the same names (ARKit's).
  */
 export class CharacterBody implements Body {
   readonly hasFace: boolean
@@ -20,7 +20,7 @@ export class CharacterBody implements Body {
   private readonly morphs: Morph[] = []
   private readonly moved: ReadonlySet<number>
 
-  /** `release` gives back the surfaces, which it may share. Throws where the motion moves none of its joints. */
+  /** `release` returns the surfaces, which may be shared. Throws if the motion moves none of its joints. */
   constructor(
     readonly object: Group,
     skeleton: Skeleton,
@@ -33,7 +33,7 @@ export class CharacterBody implements Body {
     })
     this.joints = skeleton.joints.map(({ name }) => names.get(name))
     this.moved = new Set(skeleton.translated)
-    if (!this.joints.some(Boolean)) throw new Error('this character has none of the joints that the motion moves')
+    if (!this.joints.some(Boolean)) throw new Error('this character has none of the motion’s joints')
     object.traverse((one) => {
       const mesh = one as SkinnedMesh
       if (!mesh.isMesh) return

@@ -5,7 +5,7 @@ import { clone } from 'three/addons/utils/SkeletonUtils.js'
 import type { Skeleton } from '../motion/skeleton'
 import { CharacterBody } from './character_body'
 
-/** What a character's GLB holds (meshopt-compressed or plain), read once, for as many signers on the screen as there are. */
+/** The content of a character's GLB (meshopt-compressed or plain), parsed once, for any number of signers on the screen. */
 export class CharacterModel {
   private constructor(private readonly scene: Group) {}
 
@@ -13,7 +13,7 @@ export class CharacterModel {
     const loader = new GLTFLoader()
     loader.setMeshoptDecoder(MeshoptDecoder)
     const { scene, parser } = await loader.parseAsync(glb, '')
-    // The loader takes dots and blanks out of names: the file's own are in its JSON.
+    // The loader removes dots and spaces from names: the original ones are in the file's JSON.
     const nodes = (parser.json as { nodes?: { name?: string }[] }).nodes ?? []
     for (const [object, where] of parser.associations) {
       const node = (where as { nodes?: number } | undefined)?.nodes
@@ -22,7 +22,7 @@ export class CharacterModel {
     scene.traverse((one) => {
       const mesh = one as SkinnedMesh
       if (!mesh.isMesh) return
-      // What is blended (lashes, then the soft ends of hair) is drawn after what is not, and throws no shadow of its outline.
+      // Blended materials (lashes, then the soft ends of hair) are drawn after opaque ones, and cast no shadow of their outline.
       const blended = materialsOf(mesh).some(({ transparent }) => transparent)
       mesh.renderOrder = mesh.name === 'hairEdge' ? 2 : blended ? 1 : 0
       mesh.castShadow = !blended
@@ -32,12 +32,12 @@ export class CharacterModel {
     return new CharacterModel(scene)
   }
 
-  /** A signer of this model, for poses of `skeleton`. */
+  /** Creates a signer with this model, for poses of `skeleton`. */
   body(skeleton: Skeleton): CharacterBody {
     return new CharacterBody(this.copy(), skeleton, () => this.release())
   }
 
-  /** Joints and meshes of its own; surfaces, and of the meshes that share one their skin, stay shared. */
+  /** Joints and meshes are copied; surfaces, and the skin of meshes that share one, stay shared. */
   private copy(): Group {
     const copy = clone(this.scene) as Group
     const mine: SkinnedMesh[] = [],
@@ -53,7 +53,7 @@ export class CharacterModel {
     return copy
   }
 
-  /** Gives back what the graphics card holds of it; it is sent there again where it is drawn again. */
+  /** Releases its graphics resources; they are uploaded again when it is drawn again. */
   private release(): void {
     const textures = new Set<Texture>()
     this.scene.traverse((one) => {

@@ -5,7 +5,7 @@ import type { Skeleton } from '../motion/skeleton'
 import { DrawnBody } from './drawn_body'
 import { Proportions } from './proportions'
 
-/** A signer who lies along x and looks up, so that no direction is taken for granted. */
+/** A signer who lies along x and faces up, so that no direction is taken for granted. */
 const kLying: Skeleton = {
   joints: [
     { name: 'p', parent: -1, offset: [0, 1, 0] },
@@ -33,7 +33,7 @@ const kRig = {
   right_hand: { joint: 8 },
 }
 
-it('knows where up, left and front are from the skeleton alone', () => {
+it('determines up, left and front from the skeleton alone', () => {
   const p = new Proportions(kLying, kRig)
   expect(p.up.distanceTo(new Vector3(1, 0, 0))).toBeLessThan(1e-6)
   expect(p.left.distanceTo(new Vector3(0, 0, 1))).toBeLessThan(1e-6)
@@ -41,7 +41,7 @@ it('knows where up, left and front are from the skeleton alone', () => {
   expect(p.scale).toBeCloseTo(0.4 / 0.35)
 })
 
-it('draws a body that moves with its joints, with faces outward, and says that its face is neutral', () => {
+it('draws a body that moves with its joints, with outward faces, and reports that its face is neutral', () => {
   const body = new DrawnBody(new Proportions(kLying, kRig))
   expect(body.hasFace).toBe(false)
   const pose = restPose(kLying)
@@ -76,7 +76,7 @@ it('draws a body that moves with its joints, with faces outward, and says that i
   body.dispose()
 })
 
-it('draws bones where the rig map knows nothing', () => {
+it('draws bones if the rig map is empty', () => {
   const body = new DrawnBody(new Proportions(kLying, {}))
   const mesh = body.object.children.find((one): one is SkinnedMesh => (one as SkinnedMesh).isSkinnedMesh)!
   expect(mesh.geometry.getAttribute('position').count).toBeGreaterThan(100)

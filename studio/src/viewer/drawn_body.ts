@@ -7,10 +7,10 @@ import type { Proportions } from './proportions'
 import { Shared } from './shared'
 import type { Detail } from './solids'
 
-/** The surfaces of the bodies that there are: one piece of a recording after the other has the same. */
+/** The geometries of the existing bodies: successive pieces of a recording share them. */
 const kSurfaces = new Shared<BufferGeometry>()
 
-/** A signer drawn from the skeleton itself: there at once, for any skeleton, whatever its names. */
+/** A signer drawn from the skeleton itself: available at once, for any skeleton with any joint names. */
 export class DrawnBody implements Body {
   readonly object = new Group()
   readonly hasFace: boolean

@@ -8,12 +8,12 @@ const kOfSide = ['eyeBlink', 'eyeSquint', 'eyeWide', 'browDown', 'browOuterUp', 
 const kOfBoth = ['browInnerUp', 'jawOpen', 'mouthPucker', 'mouthFunnel'] as const
 const kCommon = 2 * kOfSide.length
 
-/** Eyes, lids, brows and mouth of the drawn signer, moved by tracks of the ARKit names. */
+/** Eyes, lids, brows and mouth of the plain body, moved by tracks with ARKit's names. */
 export class DrawnFace {
-  /** Hangs on the head's joint. */
+  /** Attached to the head's joint. */
   readonly object = new Group()
   readonly moves: boolean
-  /** Of each weight the index of its track, or −1. */
+  /** For each weight the index of its track, or −1. */
   private readonly tracks: readonly number[]
   private readonly weights: Float32Array
   private readonly lids: Mesh[] = []
@@ -115,7 +115,7 @@ export class DrawnFace {
   }
 }
 
-/** The rotation that takes x, y, z to the signer's left, up and front. */
+/** Returns the rotation that takes x, y, z to the signer's left, up and front. */
 function facing(p: Proportions): Quaternion {
   const m = new Vector3(0, 0, 1)
   const turn = new Quaternion().setFromUnitVectors(m, p.front)

@@ -9,7 +9,7 @@ const kLegs = new Color(0x272f3a)
 const kFingers = ['thumb', 'index', 'middle', 'ring', 'little'] as const
 const kFingerRadius = { thumb: 0.0105, index: 0.0088, middle: 0.0092, ring: 0.0086, little: 0.0075 }
 
-/** The body of a signer as solids on its own skeleton: plain dark top, bare hands, as signers dress for video. */
+/** Builds the body of a signer from solids on its own skeleton: plain dark top, bare hands, as signers dress for video. */
 export function drawnGeometry(p: Proportions, detail: Detail = 'fine'): BufferGeometry {
   const builder = new SolidBuilder(detail)
   if (p.joint('pelvis') >= 0 && p.joint('left_upper_arm') >= 0 && p.joint('right_upper_arm') >= 0) {
@@ -23,7 +23,7 @@ export function drawnGeometry(p: Proportions, detail: Detail = 'fine'): BufferGe
   return builder.geometry()
 }
 
-/** Where the rig map knows too little: each joint to its parent, so that at least the bones are seen. */
+/** If the rig map contains too little, connects each joint to its parent, so that at least the bones are visible. */
 function anyBones(builder: SolidBuilder, p: Proportions): void {
   p.skeleton.joints.forEach(({ parent }, j) => {
     if (parent < 0) return
@@ -86,7 +86,7 @@ function torso(builder: SolidBuilder, p: Proportions): void {
     ring(Math.max(1.13 * top, toNeck), 0.066, 0.06, 0),
     ring(Math.max(1.15 * top, toNeck + 0.012 * s), 0.055, 0.055, 0.002),
   ]
-  // The top's hem lies below the hips, over the legs.
+  // The top's hem is below the hips, over the legs.
   builder.loft(rings, p.left, p.front, kTop)
   const headAt = p.at('head')
   if (headAt) {
@@ -95,7 +95,7 @@ function torso(builder: SolidBuilder, p: Proportions): void {
   }
 }
 
-/** Of the head: its middle and half axes, as `face.ts` needs them too. */
+/** Returns the centre and half axes of the head, which `face.ts` also needs. */
 export function headShape(p: Proportions): { center: Vector3; radii: Vector3 } | undefined {
   const base = p.at('head')
   if (!base) return undefined
@@ -232,7 +232,7 @@ function hand(builder: SolidBuilder, p: Proportions, side: 'left' | 'right', wri
             )
           : undefined)
       if (!b) continue
-      // A tip is the end of the flesh: the round end must not reach beyond it.
+      // A tip is the end of the flesh: the round end must not extend beyond it.
       const tip = points[i + 1] && i < 2 ? b : b.clone().addScaledVector(b.clone().sub(a).normalize(), -radius * 0.7)
       builder.limb(a, tip, radius * (1.08 - 0.09 * i), radius * (0.99 - 0.09 * i), joints[i], kSkin)
     }

@@ -19,7 +19,7 @@ const kSkeleton: Skeleton = {
 }
 const kRig = { pelvis: { joint: 0 }, neck: { joint: 1 }, left_upper_arm: { joint: 2 }, right_upper_arm: { joint: 3 } }
 
-/** A motion that is turned about the vertical by so many radians in each frame. */
+/** A motion rotated about the vertical by the given radians in each frame. */
 function turned(angles: readonly number[]) {
   const poses = angles.map((angle) => {
     const pose = restPose(kSkeleton)
@@ -31,7 +31,7 @@ function turned(angles: readonly number[]) {
   return { store, rig: kRig, originMs: 0, declarations: {}, recording: 'x' }
 }
 
-it('is where the shoulders face, not where the skeleton does at rest', () => {
+it('is the direction of the shoulders, not that of the rest pose', () => {
   const signer = new Proportions(kSkeleton, kRig)
   const { front, left, up } = facingOf(turned([Math.PI, Math.PI + 0.3, Math.PI - 0.3]), signer)
   expect(front.distanceTo(new Vector3(0, 0, -1))).toBeLessThan(1e-3)
@@ -39,7 +39,7 @@ it('is where the shoulders face, not where the skeleton does at rest', () => {
   expect(up.y).toBe(1)
 })
 
-it('is as at rest where the shoulders face everywhere, or no frame has come', () => {
+it('is that of the rest pose if the shoulders face everywhere, or no frame is loaded', () => {
   const signer = new Proportions(kSkeleton, kRig)
   expect(facingOf(turned([0, Math.PI / 2, Math.PI, -Math.PI / 2]), signer)).toBe(signer)
   expect(facingOf({ ...turned([0]), store: new FrameStore(kSkeleton, 50, kRig, 10) }, signer)).toBe(signer)

@@ -6,7 +6,7 @@ import type { OpenedMotion } from '../motion/source'
 import type { Proportions } from './proportions'
 import { someFrames } from './stance'
 
-/** Which way a signer faces: unit vectors in model space, level, and how large the signer is. */
+/** The direction a signer faces: horizontal unit vectors in model space, and the signer's scale. */
 export interface Facing {
   readonly up: Vector3
   readonly left: Vector3
@@ -15,8 +15,8 @@ export interface Facing {
 }
 
 /**
- * Which way the shoulders face in the mean of the frames that are here, at most some of them: captures face where they were made,
- * whatever their skeleton does at rest. Where nothing tells it, as at rest.
+ * Returns the mean direction of the shoulders in up to a fixed number of loaded frames: captures face any direction, whatever their skeleton does at rest.
+ * Falls back to the rest pose.
  */
 export function facingOf(motion: OpenedMotion, signer: Proportions): Facing {
   const { store, rig } = motion

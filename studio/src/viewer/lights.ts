@@ -1,7 +1,7 @@
 import { DirectionalLight, HemisphereLight, type Scene, Vector3 } from 'three'
 import type { Facing } from './facing'
 
-/** Light as for signed video: the key from above and a little to the side, a weak fill, a rim that parts the arms from the body. */
+/** Lighting as in sign language video: the key light from above and slightly to the side, a weak fill, a rim light that separates the arms from the body. */
 export class Lights {
   private readonly key = new DirectionalLight(0xfff2e4, 2.1)
   private readonly fill = new DirectionalLight(0xdfeaff, 0.7)
@@ -29,7 +29,7 @@ export class Lights {
     scene.add(sky, fill, rim, key, key.target)
   }
 
-  /** Goes along with the signer; `root` is the place of the pelvis in model space, metres. */
+  /** Follows the signer; `root` is the position of the pelvis in model space, metres. */
   follow(root: Vector3): void {
     const { key, signer } = this
     key.target.position.copy(root).addScaledVector(signer.up, 0.35 * signer.scale)
@@ -37,11 +37,11 @@ export class Lights {
   }
 
   /**
-   * Light for a body: one with surfaces of its own (skin, cloth) takes a softer sky and finer shadows. What comes from all around is a
-   * sky alone: a picture of a room, blurred for every roughness, took a computer that draws by software twenty seconds.
+   * Sets the light for a body: realistic surfaces (skin, cloth) get a softer sky and finer shadows. Ambient light is only a sky: an environment map of a room,
+   * blurred for every roughness, took twenty seconds with software rendering.
    */
   suit(real: boolean): void {
-    // Dark cloth takes little: more sky and rim, so that arms stand out before the body.
+    // Dark cloth reflects little: more sky and rim, so that arms stand out against the body.
     this.sky.intensity = real ? 2.1 : 1.25
     this.fill.intensity = real ? 1.1 : 0.7
     this.rim.intensity = real ? 1.6 : 1.5

@@ -3,7 +3,7 @@ import { videoOf, videoTime } from './linked_video'
 
 const media = (file: string, mime: string) => ({ file, mime, origin_ms: 0, url: null })
 
-it('takes the video among the files that are linked, not the sound', () => {
+it('takes the video among the linked files, not the audio', () => {
   const sound = media('a.wav', 'audio/x-wav'),
     film = media('a.mp4', 'video/mp4'),
     unknown = media('a.x', '')
@@ -12,6 +12,6 @@ it('takes the video among the files that are linked, not the sound', () => {
   expect(videoOf([sound])).toBeUndefined()
 })
 
-it('keeps to annotation time: the video begins where its origin says', () => {
+it('follows annotation time: the video begins at its origin', () => {
   expect(videoTime(2, 100, 250)).toBeCloseTo(2.35)
 })

@@ -17,7 +17,7 @@ function rig() {
   return { gl, pace: new Pace(gl as unknown as WebGL2RenderingContext) }
 }
 
-it('asks for no picture before the last is drawn', () => {
+it('requests no frame before the last is drawn', () => {
   const { gl, pace } = rig()
   expect(pace.ready(0)).toBe(true)
   pace.drew(0)
@@ -27,7 +27,7 @@ it('asks for no picture before the last is drawn', () => {
   expect(gl.deleted).toBe(1)
 })
 
-it('rests after a picture that took long', () => {
+it('rests after a slow frame', () => {
   const { gl, pace } = rig()
   pace.drew(0)
   gl.done = true
@@ -36,7 +36,7 @@ it('rests after a picture that took long', () => {
   expect(pace.ready(301)).toBe(true)
 })
 
-it('knows renderers that need no card', () => {
+it('recognizes software renderers', () => {
   for (const name of ['ANGLE (Google, Vulkan 1.3.0 (SwiftShader Device (Subzero)), SwiftShader driver)', 'llvmpipe (LLVM 15)', 'Microsoft Basic Render Driver'])
     expect(isSoftware(name), name).toBe(true)
   for (const name of ['ANGLE (Intel, Mesa Intel(R) UHD Graphics 620)', 'Apple GPU']) expect(isSoftware(name), name).toBe(false)

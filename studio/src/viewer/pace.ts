@@ -1,11 +1,11 @@
-/** Of the time that the graphics card takes for a picture, how much it is given to do something else before the next. */
+/** The rest granted to the graphics card before the next frame, as a fraction of the last frame's drawing time. */
 const kRest = 0.5
 /** Ms up to which it needs no rest. */
 const kQuick = 40
 
 /**
- * Asks for no picture before the last is drawn. A card that is quick is not slowed down; where pictures take long, as where all is drawn by
- * software, the rest of the page still gets its turn.
+ * Requests no frame before the last one is drawn. A fast card is not slowed down; if drawing is slow, as with software rendering, the rest of the page still
+ * gets its turn.
  */
 export class Pace {
   private fence: WebGLSync | null = null
@@ -14,7 +14,7 @@ export class Pace {
 
   constructor(private readonly gl: WebGL2RenderingContext) {}
 
-  /** Whether a picture may be drawn at `now`, ms of the page's clock. */
+  /** Whether a frame may be drawn at `now`, ms of the page's clock. */
   ready(now: number): boolean {
     const { gl, fence } = this
     if (fence) {
@@ -27,7 +27,7 @@ export class Pace {
     return now >= this.until
   }
 
-  /** A picture has been asked for. */
+  /** Called after a frame was submitted. */
   drew(now: number): void {
     const { gl } = this
     this.fence = gl.fenceSync(gl.SYNC_GPU_COMMANDS_COMPLETE, 0)
@@ -38,7 +38,7 @@ export class Pace {
 
 let software: boolean | undefined
 
-/** Whether this browser draws by software, which a card would do a hundred times as fast. Asked once. */
+/** Whether this browser renders in software, which is about a hundred times slower than a graphics card. Determined once. */
 export function drawsBySoftware(): boolean {
   if (software !== undefined) return software
   const gl = document.createElement('canvas').getContext('webgl2', { failIfMajorPerformanceCaveat: true })
@@ -48,7 +48,7 @@ export function drawsBySoftware(): boolean {
   return software
 }
 
-/** By what the renderers that need no card call themselves. */
+/** Recognizes software renderers by their names. */
 export function isSoftware(renderer: string): boolean {
   return /swiftshader|llvmpipe|softpipe|software|basic render/i.test(renderer)
 }

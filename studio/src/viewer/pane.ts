@@ -20,14 +20,14 @@ export class Pane {
   readonly signer: Proportions
   readonly facing: Facing
   readonly camera: SignerCamera
-  /** What the picture is taken with: the camera, or close up one for each hand, the right one first, as they are seen from the front. */
+  /** The cameras of the picture: the main one, or close-ups of each hand, the right one first, as seen from the front. */
   cameras: readonly SignerCamera[]
   body: Body
-  /** From the stage's time to this motion's, both in seconds; the same where not set. */
+  /** Maps the stage's time to this motion's, both in seconds; identity by default. */
   timeOf: (seconds: number) => number = (seconds) => seconds
-  /** Through whose cameras this one is seen; its own where not set. That pane must be drawn first. */
+  /** The pane whose cameras are used; its own by default. That pane must be drawn first. */
   lead?: Pane
-  /** Whether the last picture was of frames that have not come, so that it must be drawn again when more do. */
+  /** Whether the last picture lacked frames, so that it must be redrawn when more arrive. */
   waiting = true
   /** Whether its signer has been drawn. */
   seen = false
@@ -67,7 +67,7 @@ export class Pane {
     this.bones.object.visible = shown
   }
 
-  /** Another body in place of this one, which is given up. */
+  /** Replaces the body; the previous one is disposed. */
   wear(body: Body): void {
     this.scene.remove(this.body.object)
     this.body.dispose()
@@ -76,7 +76,7 @@ export class Pane {
     this.lights.suit(body.shines)
   }
 
-  /** Brings everything to a time of the stage, in seconds. */
+  /** Updates everything to a time of the stage, in seconds. */
   update(seconds: number): void {
     const time = this.timeOf(seconds)
     const { store, model } = this
@@ -91,7 +91,7 @@ export class Pane {
     this.lights.follow(this.root.set(model.positions[root], model.positions[root + 1], model.positions[root + 2]))
   }
 
-  /** Moves one of the cameras for a picture of this shape, `elapsed` seconds after the one before. */
+  /** Moves one of the cameras for a picture with this aspect ratio, `elapsed` seconds after the previous one. */
   aim(camera: SignerCamera, aspect: number, elapsed: number): void {
     if (this.lead) return
     if (camera !== this.camera) camera.like(this.camera)

@@ -3,17 +3,17 @@ import { Kinematics } from '../motion/kinematics'
 import { restPose, type Pose } from '../motion/pose'
 import type { Rig, Skeleton } from '../motion/skeleton'
 
-/** Where a signer's parts are in the pose that the body is drawn in, and which way the signer faces then; model space, metres. */
+/** Positions of a signer's parts in the pose in which the body is built, and the signer's facing direction in it; model space, metres. */
 export class Proportions {
   readonly up = new Vector3(0, 1, 0)
   /** To the signer's left. */
   readonly left = new Vector3(1, 0, 0)
   readonly front = new Vector3(0, 0, 1)
-  /** How large the signer is beside one whose shoulders are 0.35 m apart. */
+  /** The signer's size relative to one whose shoulders are 0.35 m apart. */
   readonly scale: number
   private readonly model: Kinematics
 
-  /** `stance` is at rest where not given; see `stanceOf`. */
+  /** `stance` is the rest pose by default; see `stanceOf`. */
   constructor(
     readonly skeleton: Skeleton,
     readonly rig: Rig,
@@ -36,7 +36,7 @@ export class Proportions {
     return this.rig[part]?.joint ?? -1
   }
 
-  /** Of a part, a joint or a tip; none where the rig has no such part. */
+  /** Returns the position of a part, a joint or a tip; undefined if the rig has no such part. */
   at(part: string): Vector3 | undefined {
     const found = this.rig[part]
     if (!found) return undefined
@@ -48,16 +48,16 @@ export class Proportions {
   ofJoint(joint: number): Vector3 {
     return new Vector3().fromArray(this.model.positions, 3 * joint)
   }
-  /** How a joint is turned. */
+  /** Returns the rotation of a joint. */
   turnOf(joint: number): Quaternion {
     return new Quaternion().fromArray(this.model.rotations, 4 * joint)
   }
-  /** From a joint's own space to model space. */
+  /** Returns the transform from a joint's own space to model space. */
   matrixOf(joint: number): Matrix4 {
     return new Matrix4().compose(this.ofJoint(joint), this.turnOf(joint), new Vector3(1, 1, 1))
   }
 
-  /** A place told by steps to the left, up and to the front, in metres of a signer of scale 1. */
+  /** Returns a position given by offsets to the left, up and to the front, in metres of a signer of scale 1. */
   from(origin: Vector3, left: number, up: number, front: number): Vector3 {
     const s = this.scale
     return origin

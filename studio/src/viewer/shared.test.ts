@@ -1,7 +1,7 @@
 import { expect, it } from 'vitest'
 import { Shared } from './shared'
 
-it('makes a thing once, and gives it up when the last has left', () => {
+it('creates a resource once, and disposes it when the last user has left', () => {
   const shared = new Shared<{ dispose(): void }>()
   let made = 0,
     gone = 0

@@ -1,4 +1,4 @@
-/** Things that take long to make and are the same for many, such as the surface of a body: made once, given up when the last has left. */
+/** Expensive resources shared by many users, such as the geometry of a body: created once, disposed when the last user has released them. */
 export class Shared<T extends { dispose(): void }> {
   private readonly all = new Map<string, { readonly thing: T; users: number }>()
 

@@ -10,7 +10,7 @@ import type { Detail } from './solids'
 import { stanceOf } from './stance'
 import { signerRenderer } from './stage'
 
-/** One small player of a sheet: a motion, where it is drawn and which moment of it. */
+/** One small player of a sheet: a motion, its rectangle and its current time. */
 export class SheetCell {
   /** On the canvas, in CSS pixels from its top left. */
   x = 0
@@ -32,22 +32,22 @@ export class SheetCell {
   }
 }
 
-/** Actors that nobody needs are kept for those who come next, up to so many. */
+/** The maximum number of unused actors kept for reuse. */
 const kSpare = 3
 
 /**
- * Draws many signers on one canvas, each into a rectangle of its own. All motions of a recording share one signer, which takes
- * their poses in turn, so that a hundred cells hold no more on the graphics card than one does. Without shadows, which would be half of the work.
+ * Draws many signers on one canvas, each into its own rectangle. All motions of a recording share one signer, which takes their poses in turn, so that a
+ * hundred cells use no more graphics memory than one. Without shadows, which would take half of the time.
  */
 export class Sheet {
   readonly cells = new Map<string, SheetCell>()
-  /** Called before each picture with the seconds since the one before: sets the cells' times. True where one of them moved. */
+  /** Called before each frame with the seconds since the previous one: sets the cells' times. Returns whether one of them changed. */
   onTick?: (elapsed: number) => boolean
-  /** Called where the browser takes the picture away, and where it gives it back. */
+  /** Called when the browser takes the graphics context away, and when it restores it. */
   onLost?: (lost: boolean) => void
-  /** Called with an actor that is new: it may be given another body. */
+  /** Called with a new actor, which may be given another body. */
   onActor?: (actor: Actor, motion: OpenedMotion) => void
-  /** The last 120 pictures' times of the main thread, in ms. */
+  /** The main thread's time for the last 120 frames, in ms. */
   readonly costs = new Float32Array(120)
   pictures = 0
   view: View = 'front'
@@ -60,7 +60,7 @@ export class Sheet {
   private height = 1
 
   constructor(private readonly canvas: HTMLCanvasElement) {
-    // Small triangles cost most where edges are smoothed; a fine screen does without, and software cannot afford it.
+    // Small triangles cost most with antialiasing; a high-density screen does not need it, and software rendering cannot afford it.
     this.renderer = signerRenderer(canvas, window.devicePixelRatio < 2 && !drawsBySoftware())
     this.pace = new Pace(this.renderer.getContext() as WebGL2RenderingContext)
     this.renderer.shadowMap.enabled = false
@@ -71,7 +71,7 @@ export class Sheet {
     this.request = requestAnimationFrame(this.frame)
   }
 
-  /** A cell for a motion; those with the same `skeleton` share a signer. */
+  /** Adds a cell for a motion; those with the same `skeleton` share a signer. */
   add(key: string, motion: OpenedMotion, skeleton: string, detail: Detail = 'plain'): SheetCell {
     let actor = this.actors.get(skeleton)
     const signer = actor?.signer ?? new Proportions(motion.store.skeleton, motion.rig, stanceOf(motion))
@@ -116,12 +116,12 @@ export class Sheet {
     this.touch()
   }
 
-  /** Something changed that the clock does not know of. */
+  /** Requests a redraw for a change that the clock does not know of. */
   touch(): void {
     this.dirty = true
   }
 
-  /** How many geometries and textures the graphics card holds. */
+  /** The numbers of geometries and textures on the graphics card. */
   get held(): { geometries: number; textures: number } {
     return this.renderer.info.memory
   }
@@ -137,7 +137,7 @@ export class Sheet {
     for (const actor of this.actors.values()) actor.dispose()
     this.actors.clear()
     this.renderer.dispose()
-    // A browser gives a page some sixteen of these, and takes the oldest away where there are more.
+    // A browser allows a page about sixteen contexts, and takes the oldest away beyond that.
     this.renderer.forceContextLoss()
   }
 

@@ -1,22 +1,22 @@
 import type { MotionSource, OpenedMotion } from '../motion/source'
 import type { Transport } from './transport'
 
-/** One motion that is shown; the second and later ones go along with the first. */
+/** One motion on display; the second and later ones follow the first. */
 export interface Strand {
-  /** `blind` tells nobody what it is. */
+  /** `blind` reveals nothing about the motion. */
   readonly role: 'only' | 'original' | 'made' | 'beside' | 'blind'
   readonly source: MotionSource
   readonly motion: OpenedMotion
 }
 
-/** What the viewer shows: motions, and the time that they are at. */
+/** The content of the viewer: motions, and their current time. */
 export interface Showing {
   readonly transport: Transport
   readonly strands: readonly Strand[]
-  /** All are seen through the camera of the first, so that nothing but the motion tells them apart. */
+  /** All are seen through the camera of the first, so that they differ in nothing but the motion. */
   readonly oneCamera?: boolean
-  /** Rises as pieces of the motions come. */
+  /** Increases as pieces of the motions arrive. */
   readonly arrivals: number
-  /** The time of a strand beside a time of the transport, both in seconds from frame 0. */
+  /** Returns the mapping from the transport's time to a strand's time, both in seconds from frame 0. */
   timeOf(strand: Strand): (seconds: number) => number
 }

@@ -1,8 +1,8 @@
 import { BufferGeometry, Color, Float32BufferAttribute, Uint16BufferAttribute, Vector3 } from 'three'
 
-/** How finely round things are drawn: `plain` for pictures of a few centimetres, of which there are many. */
+/** The level of detail: `plain` for pictures of a few centimetres, of which there are many. */
 export type Detail = 'fine' | 'plain'
-/** Corners around a solid, rings over a limb's round end and along it, rings of an ellipsoid; `thin` ones are fingers, ears and the like. */
+/** Segments around a solid, rings over a limb's round end and along it, rings of an ellipsoid; `thin` solids are fingers, ears and the like. */
 const kDetails = {
   fine: { thick: { around: 20, cap: 4, along: 4, rings: 18 }, thin: { around: 20, cap: 4, along: 4, rings: 18 } },
   plain: { thick: { around: 9, cap: 2, along: 1, rings: 8 }, thin: { around: 5, cap: 1, along: 1, rings: 4 } },
@@ -10,14 +10,14 @@ const kDetails = {
 /** Metres below which a solid's radius is thin. */
 const kThin = 0.02
 
-/** One ring of a loft: an ellipse across `axis`, carried by two joints. */
+/** One ring of a loft: an ellipse perpendicular to `axis`, attached to two joints. */
 export interface Ring {
   readonly at: Vector3
   /** Half axes along `side` and `front`, metres. */
   readonly side: number
   readonly front: number
   readonly joints: readonly [number, number]
-  /** How much of it follows the second joint, 0 to 1. */
+  /** The weight of the second joint, 0 to 1. */
   readonly part: number
 }
 
@@ -34,7 +34,7 @@ export class SolidBuilder {
     this.detail = kDetails[detail]
   }
 
-  /** A limb from `a` to `b` with round ends; `flat` squeezes it along a direction (unit) by a factor. */
+  /** Adds a limb from `a` to `b` with round ends; `flat` compresses it along a direction (unit) by a factor. */
   limb(a: Vector3, b: Vector3, radiusA: number, radiusB: number, joint: number, color: Color, flat?: { along: Vector3; factor: number }): void {
     const axis = b.clone().sub(a)
     const length = axis.length()
@@ -95,7 +95,7 @@ export class SolidBuilder {
     this.loft(rings, side, front, color, shaped.around)
   }
 
-  /** Rings one above the other, each with the same directions. */
+  /** Adds a surface through stacked rings with common directions. */
   loft(rings: readonly Ring[], side: Vector3, front: Vector3, color: Color | ((at: Vector3) => Color), around = this.detail.thick.around): void {
     const base = this.positions.length / 3
     const at = new Vector3()
@@ -146,7 +146,7 @@ export class SolidBuilder {
   }
 }
 
-/** A unit vector across `axis`, in the direction of `wanted` as far as that goes. */
+/** Returns a unit vector perpendicular to `axis`, as close as possible to the direction `wanted`. */
 export function perpendicular(axis: Vector3, wanted?: Vector3): Vector3 {
   const side = (wanted ?? (Math.abs(axis.y) < 0.9 ? new Vector3(0, 1, 0) : new Vector3(0, 0, 1))).clone()
   side.addScaledVector(axis, -side.dot(axis))

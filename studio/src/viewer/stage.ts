@@ -5,14 +5,14 @@ import { drawsBySoftware, Pace } from './pace'
 import type { Pane } from './pane'
 import type { Transport } from './transport'
 
-/** What a picture took, in ms of the main thread, over the last second or so. */
+/** The main thread's time per frame, in ms, over about the last second. */
 export interface FrameCost {
   mean: number
   most: number
   pictures: number
 }
 
-/** Draws signers on a canvas the way all of the studio's pictures are drawn. Throws where the browser cannot. */
+/** Creates the renderer used for all of the studio's pictures of signers. Throws if the browser does not support it. */
 export function signerRenderer(canvas: HTMLCanvasElement, antialias = true): WebGLRenderer {
   let renderer: WebGLRenderer
   try {
@@ -28,22 +28,22 @@ export function signerRenderer(canvas: HTMLCanvasElement, antialias = true): Web
   return renderer
 }
 
-/** Draws one or two motions in step on one canvas, only while something changes. */
+/** Draws one or two synchronized motions on one canvas, only while something changes. */
 export class Stage {
   readonly panes: Pane[] = []
-  /** Called after each picture with its time in seconds; must be quick and allocate nothing. */
+  /** Called after each frame with its time in seconds; must be quick and allocate nothing. */
   onPicture?: (seconds: number) => void
-  /** Called where the browser takes the picture away, and where it gives it back. */
+  /** Called when the browser takes the graphics context away, and when it restores it. */
   onLost?: (lost: boolean) => void
-  /** The last 120 pictures' times of the main thread, in ms. */
+  /** The main thread's time for the last 120 frames, in ms. */
   readonly costs = new Float32Array(120)
   pictures = 0
   private readonly renderer: WebGLRenderer
-  /** Where software draws, which takes both smooth edges and shadows three times as long. */
+  /** For software rendering, which takes three times as long with both antialiasing and shadows. */
   private readonly pace?: Pace
   private readonly observer: ResizeObserver
   private request = 0
-  /** Of the picture before, ms of the page's clock. */
+  /** Of the previous frame, ms of the page's clock. */
   private last = 0
   private dirty = true
   private width = 1
@@ -68,7 +68,7 @@ export class Stage {
     this.request = requestAnimationFrame(this.frame)
   }
 
-  /** Something changed that the transport does not know of. */
+  /** Requests a redraw for a change that the transport does not know of. */
   touch(): void {
     this.dirty = true
   }
@@ -86,17 +86,17 @@ export class Stage {
     this.touch()
   }
 
-  /** Side by side where the canvas is wide, else one above the other. */
+  /** Side by side if the canvas is wide, otherwise one above the other. */
   get stacked(): boolean {
     return this.width <= this.height
   }
 
-  /** Whether the last picture is of all that was asked for: of frames that are there, with cameras that have come to rest. */
+  /** Whether the last picture is complete: all frames loaded, cameras at rest. */
   get still(): boolean {
     return !this.dirty && !this.transport.playing && !this.panes.some(({ waiting }) => waiting)
   }
 
-  /** Mean and most of the last pictures. */
+  /** The mean and maximum of the last frames. */
   cost(): FrameCost {
     const count = Math.min(this.pictures, this.costs.length)
     let sum = 0,
@@ -108,7 +108,7 @@ export class Stage {
     return { mean: count ? sum / count : 0, most, pictures: this.pictures }
   }
 
-  /** How many geometries and textures the graphics card holds. */
+  /** The numbers of geometries and textures on the graphics card. */
   get held(): { geometries: number; textures: number } {
     return this.renderer.info.memory
   }
@@ -121,7 +121,7 @@ export class Stage {
     for (const pane of this.panes) pane.dispose()
     this.panes.length = 0
     this.renderer.dispose()
-    // A browser gives a page some sixteen of these, and takes the oldest away where there are more.
+    // A browser allows a page about sixteen contexts, and takes the oldest away beyond that.
     this.renderer.forceContextLoss()
   }
 
@@ -139,7 +139,7 @@ export class Stage {
     this.dirty = false
     const { time } = this.transport
     this.draw(time, Math.min(0.25, Math.max(0, (now - this.last) / 1000)))
-    this.onPicture?.(time) // afterwards: drawing finds out whether time is held, and then no other picture may follow
+    this.onPicture?.(time) // afterwards: drawing determines whether time is held, and then no other frame may follow
     this.last = now
     this.pace?.drew(now)
     this.costs[this.pictures++ % this.costs.length] = performance.now() - start
@@ -171,7 +171,7 @@ export class Stage {
         if (!camera.settled) this.dirty = true
         renderer.setViewport(x + k * part, y, part, h)
         renderer.setScissor(x + k * part, y, part, h)
-        // The second picture of a signer has the shadows of the first.
+        // The second view of a signer reuses the shadows of the first.
         renderer.shadowMap.autoUpdate = k === 0
         renderer.render(pane.scene, camera.camera)
       }

@@ -9,7 +9,7 @@ import { DrawnBody } from './drawn_body'
 import { Proportions } from './proportions'
 import { stanceOf } from './stance'
 
-/** Collars at whose rest both arms point to the front, as some exporters write them: turned outward by a quarter they are a person's. */
+/** Collars at whose rest both arms point to the front, as some exporters write them: rotated outward by 90 degrees, they match a person's. */
 const kFolded: Skeleton = {
   joints: [
     { name: 'p', parent: -1, offset: [0, 1, 0] },
@@ -47,7 +47,7 @@ function motion(poses: ReturnType<typeof restPose>[], length = poses.length) {
   if (poses.length > 0) store.put(blockOf(kFolded, poses, 0))
   return { store, rig: kRig }
 }
-/** Both collars turned outward; one of two quaternions of the same rotation, in turn. */
+/** Both collars rotated outward; alternates between the two quaternions of the same rotation. */
 function outward(k: number) {
   const pose = restPose(kFolded),
     sign = k % 2 ? -1 : 1
@@ -61,12 +61,12 @@ function outward(k: number) {
   return pose
 }
 
-it('is rest where rest is that of a person, or where nothing has come', () => {
+it('is the rest pose if it is plausible for a person, or if nothing is loaded', () => {
   expect(stanceOf(motion([restPose(kFolded)]))).toEqual(restPose(kFolded))
   expect(stanceOf(motion([], 10))).toEqual(restPose(kFolded))
 })
 
-it('is what was captured where rest is none of a person', () => {
+it('is the captured pose if the rest pose is not plausible', () => {
   const stance = stanceOf(motion(Array.from({ length: 100 }, (_, k) => outward(k))))
   const signer = new Proportions(kFolded, kRig, stance)
   expect(signer.scale).toBeCloseTo(0.36 / 0.35, 1)
@@ -74,7 +74,7 @@ it('is what was captured where rest is none of a person', () => {
   expect(signer.front.distanceTo(new Vector3(0, 0, 1))).toBeLessThan(0.1)
 })
 
-it('draws a body that is where its joints are, however they were turned when it was made', () => {
+it('draws a body that matches its joints, however they were rotated when it was created', () => {
   const poses = Array.from({ length: 10 }, (_, k) => outward(k)),
     signer = new Proportions(kFolded, kRig, stanceOf(motion(poses)))
   const body = new DrawnBody(signer),
@@ -84,7 +84,7 @@ it('draws a body that is where its joints are, however they were turned when it 
   body.object.updateMatrixWorld(true)
   const mesh = body.object.children.find((one) => 'isSkinnedMesh' in one) as import('three').SkinnedMesh
   mesh.skeleton.update()
-  // Of what each joint carries alone, the nearest point is no further from it than flesh is thick.
+  // Among the vertices attached to one joint only, the nearest is no farther from it than flesh is thick.
   const places = mesh.geometry.getAttribute('position'),
     carriers = mesh.geometry.getAttribute('skinIndex'),
     at = new Vector3()

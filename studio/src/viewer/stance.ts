@@ -2,19 +2,19 @@ import { Kinematics } from '../motion/kinematics'
 import { restPose, type Pose } from '../motion/pose'
 import type { OpenedMotion } from '../motion/source'
 
-/** Frames that are looked at. */
+/** The maximum number of frames sampled. */
 const kLooked = 40
-/** Distances that a body keeps, whatever it does. */
+/** Distances that are constant for a body, whatever its pose. */
 const kKept = [
   ['left_upper_arm', 'right_upper_arm'],
   ['left_thigh', 'right_thigh'],
   ['pelvis', 'neck'],
   ['pelvis', 'head'],
 ] as const
-/** As much longer or shorter than captured such a distance may be at rest. */
+/** The maximum ratio between such a distance at rest and as captured. */
 const kNear = 1.3
 
-/** At most so many frames that are here, spread over all of them. */
+/** Returns up to a fixed number of loaded frames, spread over all of them. */
 export function someFrames({ store }: Pick<OpenedMotion, 'store'>): number[] {
   const here = Array.from({ length: store.length }, (_, frame) => frame).filter((frame) => store.has(frame))
   const step = Math.max(1, Math.floor(here.length / kLooked))
@@ -22,8 +22,8 @@ export function someFrames({ store }: Pick<OpenedMotion, 'store'>): number[] {
 }
 
 /**
- * A pose in which a body can be measured and drawn: rest, where it is that of a person. Exporters write files whose joints all turned
- * to zero are a heap of bones; then it is the mean of the frames that are here, joint by joint.
+ * Returns a pose in which a body can be measured and built: the rest pose, if it is plausible for a person. Some exporters write files whose joints at zero
+ * rotation form a heap of bones; then it is the mean of the loaded frames, joint by joint.
  */
 export function stanceOf(motion: Pick<OpenedMotion, 'store' | 'rig'>): Pose {
   const { store, rig } = motion

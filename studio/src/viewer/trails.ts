@@ -14,12 +14,12 @@ import {
 import type { FrameStore } from '../motion/frame_store'
 
 const kPoints = 64
-/** Seconds that a trail reaches back. */
+/** The length of a trail in seconds. */
 const kReach = 1.2
-/** The colours of the hands everywhere: left, right. Told apart by any eye, on dark and light. */
+/** The colours of the hands everywhere: left, right. Distinguishable for all forms of colour vision, on dark and light. */
 export const kHandColors = ['#f2a33a', '#3fa7f0'] as const
 
-/** Where the wrists have been: a line, and beads at even times, so that their distance tells the speed. */
+/** The paths of the wrists: a line, and beads at regular times, so that their distance shows the speed. */
 export class Trails {
   readonly object = new Group()
   private readonly lines: Line[] = []

@@ -31,7 +31,7 @@ describe('the transport', () => {
     expect(transport.time).toBe(0)
   })
 
-  it('repeats a selection, and takes none that is shorter than a frame', () => {
+  it('repeats a selection, unless it is shorter than a frame', () => {
     const transport = ready()
     transport.setLoop(3, 2)
     expect(transport.loop).toEqual({ begin: 2, end: 3 })
@@ -44,7 +44,7 @@ describe('the transport', () => {
     expect(transport.loop).toBeNull()
   })
 
-  it('keeps its speed within 0.1 and 2', () => {
+  it('limits its speed to 0.1 to 2', () => {
     const transport = ready()
     transport.setSpeed(0)
     expect(transport.speed).toBe(0.1)
@@ -52,7 +52,7 @@ describe('the transport', () => {
     expect(transport.speed).toBe(2)
   })
 
-  it('waits at the end of what grows, and where the frame of its time has not come', () => {
+  it('waits at the end of growing motion, and for missing frames', () => {
     const transport = ready()
     transport.growing = true
     transport.seek(9.95)
@@ -70,7 +70,7 @@ describe('the transport', () => {
     expect(transport.time).toBeCloseTo(10.2)
   })
 
-  it('stays a little behind a live stream, and catches up', () => {
+  it('stays slightly behind a live stream, and catches up', () => {
     const transport = ready()
     transport.live = true
     transport.play()

@@ -7,32 +7,32 @@ export interface Loop {
 export const kSlowest = 0.1
 export const kFastest = 2
 
-/** Seconds that a live picture stays behind the newest frame. */
+/** Seconds by which live playback stays behind the newest frame. */
 const kBehind = 0.12
 
-/** Plays: where the picture is in a motion, and how it goes on. Knows no drawing. */
+/** Playback: the current time in a motion, and how it advances. Independent of drawing. */
 export class Transport {
   /** Seconds from frame 0. */
   time = 0
   playing = false
-  /** Times as fast as the signing was. */
+  /** The playback speed relative to the signing. */
   speed = 1
-  /** Begins anew at the end, or at the end of the loop. */
+  /** Restarts at the end, or at the end of the loop. */
   repeat = false
   loop: Loop | null = null
-  /** Seconds; grows while a stream comes. */
+  /** Seconds; grows while a stream arrives. */
   duration = 0
   /** Frames a second, for stepping. */
   rate = 100
-  /** Goes along with the end of a motion that is still growing, at the pace of the signing. */
+  /** Follows the end of a motion that is still growing, in real time. */
   live = false
-  /** More frames come after the last: the end is waited at, not stopped at. */
+  /** More frames will come after the last: playback waits at the end instead of stopping. */
   growing = false
-  /** Time stands still while this is set, for the frame of this time is still to come. Set by who draws. */
+  /** Time stands still while this is set, because the frame for this time is still missing. Set by the drawing code. */
   held = false
   private last = 0
 
-  /** Goes on to `now` (ms of the page's clock). True where the picture changes. */
+  /** Advances to `now` (ms of the page's clock). Returns whether the time changed. */
   tick(now: number): boolean {
     const elapsed = Math.min(0.25, Math.max(0, (now - this.last) / 1000))
     this.last = now
@@ -54,7 +54,7 @@ export class Transport {
     return moved
   }
 
-  /** A little behind what has come, so that no picture waits for a frame; a page that was away catches up. */
+  /** Stays slightly behind the newest frame, so that playback never waits; catches up after the page was hidden. */
   private follow(elapsed: number): boolean {
     let time = this.time + elapsed
     if (time > this.duration || this.duration - time > kBehind * 4) time = Math.max(this.time > this.duration ? 0 : this.time, this.duration - kBehind)
@@ -77,7 +77,7 @@ export class Transport {
     this.time = Math.min(Math.max(0, seconds), this.duration)
   }
 
-  /** By whole frames, from the nearest one; stops playing. */
+  /** Steps by whole frames, from the nearest one; stops playback. */
   step(frames: number): void {
     this.playing = false
     this.seek((Math.round(this.time * this.rate) + frames) / this.rate)
@@ -87,7 +87,7 @@ export class Transport {
     this.speed = Math.min(kFastest, Math.max(kSlowest, Math.round(speed * 100) / 100))
   }
 
-  /** A span to repeat; none where it is shorter than a frame. */
+  /** Sets a span to repeat; clears the loop if it is shorter than a frame. */
   setLoop(begin: number, end: number): void {
     const low = Math.max(0, Math.min(begin, end)),
       high = Math.min(this.duration, Math.max(begin, end))

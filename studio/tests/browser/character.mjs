@@ -1,5 +1,5 @@
-// Puts a built character (studio/avatar/build) on the studio's stage: character.mjs CHARACTER.glb OUT_FOLDER. Tests what the stage
-// must do with it, and takes pictures to be looked at. The poses are those of rest: retargeting is not asked for here.
+// Shows a built character (studio/avatar/build) on the studio's stage: character.mjs CHARACTER.glb OUT_FOLDER. Tests what the stage must do with it, and takes
+// pictures for inspection. The poses are rest poses: retargeting is not tested here.
 import assert from 'node:assert/strict'
 import { createReadStream, existsSync, mkdirSync, mkdtempSync, rmSync } from 'node:fs'
 import { createServer } from 'node:http'
@@ -76,8 +76,8 @@ try {
       await page.evaluate(() => window.wear('/character.glb'))
       await page.waitForTimeout(1500)
       const again = await page.evaluate(() => window.clear())
-      assert.deepEqual(again, first, 'the graphics card keeps something of a character that was given up')
-      console.log(`${name}: all held after giving it up: ${JSON.stringify(again)}`)
+      assert.deepEqual(again, first, 'the graphics card still holds parts of a disposed character')
+      console.log(`${name}: still held after disposal: ${JSON.stringify(again)}`)
     },
     { viewport: { width: 900, height: 720 } },
   )

@@ -4,7 +4,7 @@ import { join } from 'node:path'
 import { chromium } from 'playwright-core'
 import { watchBrowser } from './evidence.mjs'
 
-/** Debian's Chromium, drawing by software, with nothing of its own going over the network. */
+/** Debian's Chromium with software rendering and without network traffic of its own. */
 const kFlags = [
   '--no-sandbox',
   '--disable-gpu',
@@ -17,7 +17,7 @@ const kFlags = [
   '--disable-sync',
 ]
 
-/** Runs `work` with a browser of its own, and leaves nothing of it behind. */
+/** Runs `work` with a separate browser, and cleans up afterwards. */
 export async function withBrowser(work, options = {}) {
   const folder = mkdtempSync(join(tmpdir(), 'signweave-browser-'))
   const context = await chromium.launchPersistentContext(folder, {
@@ -27,7 +27,7 @@ export async function withBrowser(work, options = {}) {
     viewport: { width: 1280, height: 720 },
     ...options,
   })
-  // A busy machine that draws by software takes its time.
+  // Software rendering on a busy machine is slow.
   context.setDefaultTimeout(90_000)
   const unwatch = watchBrowser(context)
   try {

@@ -1,4 +1,4 @@
-// The blind study: set up, taken part in by keyboard and mouse, saved, looked at, deleted.
+// The blind study: set up, taken by keyboard and mouse, saved, viewed, deleted.
 import assert from 'node:assert/strict'
 import { readFileSync } from 'node:fs'
 import { axeFaults, transport } from './page_tools.mjs'
@@ -8,12 +8,12 @@ import { frames, until } from './waits.mjs'
 const button = (name) => page.getByRole('button', { name, exact: true })
 const kept = () => page.evaluate(() => JSON.parse(localStorage.getItem('signweave.study.demo')))
 const forget = () => page.evaluate(() => (localStorage.removeItem('signweave.study.demo'), sessionStorage.removeItem('signweave.study.turn.demo')))
-/** What only who runs a study should look at is closed. */
-const forMaker = () => page.locator('summary', { hasText: 'For whoever runs the study' }).click()
-/** Until both signers of a trial are drawn. */
+/** Sections meant only for the person running the study are collapsed. */
+const forMaker = () => page.locator('summary', { hasText: 'For the person running the study' }).click()
+/** Waits until both signers of a trial are drawn. */
 const seen = (count = 2) =>
   page.waitForFunction((n) => window.signweaveStage?.panes.length === n && window.signweaveStage.panes.every((pane) => pane.seen), count)
-/** The parts of a file that Wilson's table and CSV are made of: fields may be quoted. */
+/** Parses the votes' CSV into fields, which may be quoted. */
 function parsed(text) {
   const rows = [...text.matchAll(/((?:"(?:[^"]|"")*"|[^",\r\n]*)(?:,(?:"(?:[^"]|"")*"|[^",\r\n]*))*)\r\n/g)].map(([, line]) =>
     [...line.matchAll(/(?:^|,)("(?:[^"]|"")*"|[^",]*)/g)].map(([, field]) => field.replace(/^"|"$/g, '').replaceAll('""', '"')),
@@ -24,9 +24,9 @@ async function saved(name) {
   const [download] = await Promise.all([page.waitForEvent('download'), button(name).click()])
   return readFileSync(await download.path(), 'utf8').replace(/^\ufeff/, '')
 }
-/** A small picture that stands still is drawn quickly by software. */
+/** A small still picture is drawn quickly by software. */
 const kSmall = { width: 720, height: 560 }
-/** Sets a study up; `more` changes the form before. Where motion is to be reduced nothing plays by itself. */
+/** Sets up a study; `more` changes the form before. With reduced motion nothing plays automatically. */
 async function setUp({ methods = ['hermite', 'sine'], trials = 4, still = true, more = async () => {} } = {}) {
   await visit('#/demo/compare', { size: kSmall })
   if (still) await page.emulateMedia({ reducedMotion: 'reduce' })
@@ -35,7 +35,7 @@ async function setUp({ methods = ['hermite', 'sine'], trials = 4, still = true, 
   await button('Set up the study').waitFor()
   for (const method of ['taught', 'gap']) if (!methods.includes(method)) await page.getByRole('checkbox', { name: method, exact: true }).uncheck()
   for (const method of methods) await page.getByRole('checkbox', { name: method, exact: true }).check()
-  await page.getByLabel('Trials for each viewer').fill(String(trials))
+  await page.getByLabel('Trials per viewer').fill(String(trials))
   await more()
   await page.waitForFunction(() => document.querySelector('form button.primary')?.disabled === false)
   await button('Set up the study').click()
@@ -45,7 +45,7 @@ async function begin(fluency = 'Deaf signer') {
   await page.getByLabel(fluency).check()
   await button('Begin').click()
 }
-/** A dialog tells only later that it was closed. */
+/** The close event of a dialog comes later. */
 const closed = () => page.waitForFunction(() => !document.querySelector('dialog'))
 const answered = (count) =>
   page.waitForFunction(
@@ -53,7 +53,7 @@ const answered = (count) =>
     count,
   )
 
-test('a viewer takes part by keyboard alone, a reload goes on with the same trial, and the votes are saved', async () => {
+test('a viewer takes part by keyboard alone, a reload continues the same trial, and the votes are saved', async () => {
   await setUp({
     trials: 4,
     more: async () => {
@@ -68,7 +68,7 @@ test('a viewer takes part by keyboard alone, a reload goes on with the same tria
   assert.deepEqual(items.map(({ method }) => method).toSorted(), ['', 'hermite', 'hermite', 'sine', 'sine'])
   assert.equal(new Set(items.map(({ from, recording }) => `${recording} ${from}`)).size, 5)
   assert.equal(settings.seed, 5)
-  // By keyboard: the code is there, Tab to the fluency, space chooses, Enter begins.
+  // By keyboard: the code is preset, Tab to the fluency, space selects, Enter begins.
   await page.getByLabel('Your code').focus()
   await page.keyboard.press('Tab')
   await page.keyboard.press('Space')
@@ -81,8 +81,8 @@ test('a viewer takes part by keyboard alone, a reload goes on with the same tria
   await page.waitForFunction(() => window.signweaveStage.transport.time > 0)
   await page.keyboard.press('Space')
   const before = await kept()
-  assert.deepEqual([before.current, before.sessions[0].fluency], [undefined, 'deaf']) // whose turn it is only this tab knows
-  // Nothing leads away but Pause.
+  assert.deepEqual([before.current, before.sessions[0].fluency], [undefined, 'deaf']) // only this tab knows the current participant
+  // Only Pause leads away.
   await until(async () => assert.equal(await page.locator('nav:visible').count(), 0))
   await page.keyboard.press('?')
   await until(async () => assert.equal(await page.getByRole('dialog').count(), 0))
@@ -105,7 +105,7 @@ test('a viewer takes part by keyboard alone, a reload goes on with the same tria
   await until(async () => assert.equal((await kept()).sessions[0].answers.length, 0))
   await page.keyboard.press('4') // the rating has the keys now
   await page.keyboard.press('Enter')
-  await page.keyboard.type('Elbow 1') // the comment has them
+  await page.keyboard.type('Elbow 1') // the comment has the focus
   await page.keyboard.press('Shift+Enter')
   await page.keyboard.type('? 2')
   await page.keyboard.press('Enter')
@@ -113,7 +113,7 @@ test('a viewer takes part by keyboard alone, a reload goes on with the same tria
   const [first] = (await kept()).sessions[0].answers
   assert.deepEqual([first.recorded, first.natural, first.rating, first.comment], ['left', 'right', 4, 'Elbow 1\n? 2'])
   assert.match(first.version, /^signweave \d/)
-  // The keys are those of the next trial.
+  // Keys apply to the next trial.
   await seen()
   await page.keyboard.press('2')
   await page.waitForFunction(() => JSON.parse(localStorage.getItem('signweave.study.demo')).sessions[0].draft?.recorded === 'right')
@@ -130,11 +130,11 @@ test('a viewer takes part by keyboard alone, a reload goes on with the same tria
       .nth(2 + (n % 2))
       .click()
     await button('2').click()
-    await page.getByRole('textbox', { name: 'What did you see' }).fill(n === 3 ? 'He said "no", or\nso' : '')
+    await page.getByRole('textbox', { name: 'What did you notice' }).fill(n === 3 ? 'He said "no", or\nso' : '')
     for (let i = 0; i < 4 && (await kept()).sessions[0].answers.length < n; ++i) await page.locator('button.next').click()
     await answered(n)
   }
-  await page.getByText('That was all. Thank you!').waitFor()
+  await page.getByText('You have finished. Thank you!').waitFor()
   await button('Finish').click()
 
   await forMaker()
@@ -160,7 +160,7 @@ test('a viewer takes part by keyboard alone, a reload goes on with the same tria
   assert.deepEqual(JSON.parse(await saved('Study and votes as JSON')), study)
 })
 
-test('nothing on the screen, in the address or in what is fetched when tells which is which', async () => {
+test('nothing on the screen, in the address or in the timing of requests reveals which is which', async () => {
   await setUp({ methods: ['hermite'], trials: 8, still: false })
   const calls = []
   let free
@@ -168,7 +168,7 @@ test('nothing on the screen, in the address or in what is fetched when tells whi
   await page.route(/\/motion\?/, async (route) => {
     const url = new URL(route.request().url())
     calls.push({ remake: url.searchParams.get('remake'), from: url.searchParams.get('from') })
-    // Whichever comes second is late: the first must not be shown before.
+    // The second response is delayed: the first must not be shown alone.
     if (calls.length === 2) await held
     await route.fallback()
   })
@@ -187,16 +187,17 @@ test('nothing on the screen, in the address or in what is fetched when tells whi
   } = await kept()
   const { side } = trials[0],
     { from, to, begin: start } = items[trials[0].item]
-  // In the order of the sides: over a study as often the one as the other.
+  // In the order of the sides: over a study each order is equally frequent.
   assert.deepEqual(
     calls.slice(0, 2).map(({ remake }) => Boolean(remake)),
     side === 'left' ? [false, true] : [true, false],
   )
   assert.equal(trials.filter((one) => one.side === 'left').length, 4)
   const said = await page.evaluate(() => document.documentElement.outerHTML + location.href + document.title)
-  for (const word of ['hermite', 'remake', 'meteo', 'villes', 'capture', 'original', 'Recorded', 'Made ']) assert.ok(!said.includes(word), `${word} is told`)
+  for (const word of ['hermite', 'remake', 'meteo', 'villes', 'capture', 'original', 'Recorded', 'Generated '])
+    assert.ok(!said.includes(word), `${word} is revealed`)
 
-  // The two are alike but for the gap, seen through one camera, and go in step.
+  // The two are identical except for the gap, seen through one camera, and synchronized.
   const apart = await page.evaluate(
     ([low, high]) => {
       const { panes } = window.signweaveStage,
@@ -218,8 +219,8 @@ test('nothing on the screen, in the address or in what is fetched when tells whi
     [(from - start) / 1000 - 0.011, (to - start) / 1000 + 0.011],
   )
   assert.equal(apart.lengths[0], apart.lengths[1])
-  assert.ok(apart.inside > 0.005, `made and captured are ${apart.inside} m apart`)
-  assert.ok(apart.outside < 1e-4, `${apart.outside} m apart where nothing was made`)
+  assert.ok(apart.inside > 0.005, `generated and captured are ${apart.inside} m apart`)
+  assert.ok(apart.outside < 1e-4, `${apart.outside} m apart outside the gap`)
   assert.ok(apart.cameras)
   await until(async () => {
     const { playing, repeat, speed, loop } = await transport(page)
@@ -227,7 +228,7 @@ test('nothing on the screen, in the address or in what is fetched when tells whi
   })
   await page.keyboard.press('Space')
   await until(async () => assert.equal((await transport(page)).playing, false))
-  // No views, no speed, no other signer; the signer cannot be turned.
+  // No views, no speed, no other character; the signer cannot be rotated.
   await until(async () =>
     assert.equal(
       await page
@@ -242,12 +243,12 @@ test('nothing on the screen, in the address or in what is fetched when tells whi
   await page.mouse.move(300, 300)
   await page.mouse.up()
   await until(async () => assert.equal(await page.evaluate(() => window.signweaveStage.panes[0].camera.azimuth), 0))
-  // Replay begins again.
+  // Replay starts again from the begin.
   await page.evaluate(() => (window.signweaveStage.transport.seek(1.2), window.signweaveStage.touch()))
   await page.keyboard.press('r')
   await page.waitForFunction(() => window.signweaveStage.transport.playing && window.signweaveStage.transport.time < 1.1)
   await page.keyboard.press('Space')
-  // What comes next is fetched while one looks, and is there at once.
+  // The next trial is loaded during the current one, and is there at once.
   await until(() => assert.equal(calls.length, 4))
   await page.keyboard.press('2')
   await page.keyboard.press('Enter')
@@ -263,7 +264,7 @@ test('nothing on the screen, in the address or in what is fetched when tells whi
   )
 })
 
-test('viewers follow each other, what came out is shown on purpose, and deleting is asked for', async () => {
+test('viewers take turns, results are shown only on request, and deleting needs confirmation', async () => {
   await setUp({
     methods: ['hermite'],
     trials: 1,
@@ -277,23 +278,23 @@ test('viewers follow each other, what came out is shown on purpose, and deleting
     await seen()
     const { sessions } = await kept()
     await button(sessions[n].trials[0].side === 'left' ? 'A' : 'B').click()
-    await page.keyboard.press('Enter') // on the answer that was just chosen
+    await page.keyboard.press('Enter') // on the answer that was just selected
     await button('Finish').click()
   }
-  // The next viewer is told nothing of what is compared, and nothing of others.
+  // The next viewer sees nothing about the comparison, and nothing about others.
   const said = await page.locator('main').innerText()
-  for (const word of ['hermite', 'capture', 'P01', 'Votes', 'what came out', 'Delete']) assert.ok(!said.includes(word), `${word} is told`)
+  for (const word of ['hermite', 'capture', 'P01', 'Votes', 'the results', 'Delete']) assert.ok(!said.includes(word), `${word} is revealed`)
   await forMaker()
   await until(async () => assert.deepEqual(await page.locator('tbody th').allTextContents(), ['P01', 'P02']))
   await until(async () => assert.equal(await page.getByLabel('Your code').inputValue(), 'P03'))
   await page.getByLabel('Your code').fill('P01')
   await until(async () => assert.ok(await button('Begin').isDisabled()))
   await until(async () => assert.equal(await page.locator('#outcome-title').count(), 0))
-  await button('Show what came out').click()
+  await button('Show the results').click()
   await button('Not now').click()
   await closed()
   await until(async () => assert.equal(await page.locator('#outcome-title').count(), 0))
-  await button('Show what came out').click()
+  await button('Show the results').click()
   await button('Show it').click()
   await page.locator('#outcome-title').waitFor()
   const cells = () => page.locator('[aria-labelledby=outcome-title] tbody tr').first().locator('td, th').allTextContents()
@@ -311,14 +312,14 @@ test('viewers follow each other, what came out is shown on purpose, and deleting
   await until(async () => assert.equal(await kept(), null))
 })
 
-test('shows one at a time, opens a study that was saved, and says what is none', async () => {
+test('shows one motion at a time, opens a saved study, and rejects invalid files', async () => {
   await setUp({ methods: ['hermite'], trials: 2, more: () => page.getByLabel('One at a time').check() })
   await forMaker()
   const json = await saved('Study and votes as JSON')
   await begin()
   await seen(1)
   await until(async () => assert.equal(await page.locator('.title').count(), 0))
-  await button('Made by a computer').click()
+  await button('Generated by a computer').click()
   await page.getByText('How natural does it look?').waitFor()
   await button('5').click()
   await button('Next').click()
@@ -331,14 +332,14 @@ test('shows one at a time, opens a study that was saved, and says what is none',
     await chooser.setFiles({ name: 'study.json', mimeType: 'application/json', buffer: Buffer.from(text) })
   }
   await choose('{"format":"something"}')
-  await until(async () => assert.match(await page.getByRole('alert').textContent(), /This is no study/))
+  await until(async () => assert.match(await page.getByRole('alert').textContent(), /This is not a study/))
   await choose(json)
   await button('Begin').waitFor()
   await until(async () => assert.deepEqual(await kept(), JSON.parse(json)))
   await forget()
 })
 
-test('a study in two tabs keeps the votes of both, and shows what the other did', async () => {
+test('a study in two tabs keeps the votes of both, and shows changes of the other', async () => {
   await setUp({ methods: ['hermite'], trials: 2, more: () => page.getByLabel('A comment').uncheck() })
   const other = await context.newPage()
   try {
@@ -370,7 +371,7 @@ test('a study in two tabs keeps the votes of both, and shows what the other did'
         ],
       ),
     )
-    // Deleted in one it is gone in the other.
+    // After deletion in one tab it disappears in the other.
     await button('Finish').click()
     await forMaker()
     await button('Delete the study').click()
@@ -382,7 +383,7 @@ test('a study in two tabs keeps the votes of both, and shows what the other did'
   }
 })
 
-test('a kept study that cannot be shown stays until it is deleted, and can be saved', async () => {
+test('a stored study that cannot be shown stays until it is deleted, and can be saved', async () => {
   const odd = '{"format":"signweave study 1","settings":{}}'
   await visit('#/demo/compare', { size: kSmall })
   await page.evaluate((text) => localStorage.setItem('signweave.study.demo', text), odd)

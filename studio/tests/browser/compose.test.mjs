@@ -1,4 +1,4 @@
-// Composing: glosses as text and cards, tokens, junctions, files and films, as a person would do it.
+// Composing: glosses as text and cards, tokens, junctions, files and videos, as a person would do it.
 import assert from 'node:assert/strict'
 import { button, cards, compose, field, pause, pick, saved, shown } from './compose_tools.mjs'
 import { axeFaults, transport } from './page_tools.mjs'
@@ -11,7 +11,7 @@ const kScenario1 = 'LE-TEMPS-PREVU#1 VANNES MATIN#1 NUAGES#1 APRES-MIDI#1 PLUIE#
 
 mainTest('signs glosses that are typed and completed, by keyboard alone', async () => {
   await visit('#/demo/compose')
-  await button('Scenario 1: four words replaced by city signs').waitFor() // the glosses are there
+  await button('Scenario 1: four words replaced by city signs').waitFor() // the glosses are loaded
   await field().focus()
   await page.keyboard.type('van')
   const options = page.locator('.box [role=option]')
@@ -36,7 +36,7 @@ mainTest('signs glosses that are typed and completed, by keyboard alone', async 
   await until(async () => assert.match(await page.locator('.declarations').textContent(), kDeclared))
 })
 
-test('tells what cannot be signed, and keeps what is shown', async () => {
+test('reports what cannot be signed, and keeps the previous result', async () => {
   await compose('VANNES')
   await field().press('End')
   await page.keyboard.type(' VANES ')
@@ -52,7 +52,7 @@ test('tells what cannot be signed, and keeps what is shown', async () => {
   await until(async () => assert.deepEqual(await cards(), ['VANNES']))
 })
 
-test('offers what was meant, and takes it', async () => {
+test('offers suggestions, and applies one', async () => {
   await compose('VANNES')
   await field().fill('vannes le mans ')
   await page.getByRole('alert').filter({ hasText: "no signs 'vannes' and 'le mans'" }).waitFor()
@@ -61,7 +61,7 @@ test('offers what was meant, and takes it', async () => {
   await page.waitForFunction(() => !document.querySelector('[role=alert]'))
 })
 
-test('moves signs by mouse and by keyboard, takes them out, and takes every step back', async () => {
+test('moves signs by mouse and by keyboard, removes them, and undoes every step', async () => {
   await compose('BONJOUR MATIN PLUIE')
   const [first, last] = [await page.locator('.card').first().boundingBox(), await page.locator('.card').last().boundingBox()]
   await page.mouse.move(first.x + 20, first.y + 20)
@@ -70,7 +70,7 @@ test('moves signs by mouse and by keyboard, takes them out, and takes every step
   await page.mouse.up()
   await until(async () => assert.equal(await field().inputValue(), 'MATIN PLUIE BONJOUR'))
   await page.locator('.card').last().focus()
-  await page.keyboard.press('Enter') // no click followed the drag: this one is meant
+  await page.keyboard.press('Enter') // no click followed the drag: this one is real
   await until(async () => assert.equal(await page.locator('aside h2').textContent(), 'BONJOUR'))
   await page.keyboard.press('Alt+ArrowLeft')
   await until(async () => assert.equal(await field().inputValue(), 'MATIN BONJOUR PLUIE'))
@@ -92,7 +92,7 @@ test('moves signs by mouse and by keyboard, takes them out, and takes every step
   await button('Replace').click()
   await until(async () => assert.equal(await field().inputValue(), 'MATIN PLUIE VANNES'))
   await another.pressSequentially('P')
-  await page.keyboard.press('Control+z') // takes the typing back, not the sign
+  await page.keyboard.press('Control+z') // undoes the typing, not the sign
   await until(async () => assert.deepEqual([await another.inputValue(), await field().inputValue()], ['', 'MATIN PLUIE VANNES']))
   await page.locator('.card').last().focus()
   for (const before of ['MATIN PLUIE PLUIE', 'MATIN PLUIE', 'MATIN BONJOUR PLUIE', 'MATIN PLUIE BONJOUR', 'BONJOUR MATIN PLUIE']) {
@@ -106,14 +106,14 @@ test('moves signs by mouse and by keyboard, takes them out, and takes every step
   await shown('MATIN BONJOUR PLUIE')
 })
 
-test('shows the tokens of a place with what they cost, and signs the one that is picked', async () => {
+test('shows the tokens of a place with their costs, and signs the selected one', async () => {
   await compose('VANNES MATIN')
   await page.locator('.card').nth(1).click()
   const rows = page.locator('aside .token')
   await rows.first().waitFor()
   const said = await rows.allTextContents()
   assert.equal(said.length, 2)
-  assert.match(said[0], /least cost/)
+  assert.match(said[0], /lowest cost/)
   assert.match(said[0], /handshape \d\.\d\d/)
   const [, token, source] = /^#(\d) (meteo \d+\.\d s)/.exec(said[1])
   await until(async () => assert.notEqual(await page.locator('.card').nth(1).locator('.source').textContent(), source))
@@ -122,11 +122,11 @@ test('shows the tokens of a place with what they cost, and signs the one that is
   await until(async () => assert.equal(await page.locator('.card').nth(1).locator('.source').textContent(), source))
   await until(async () => assert.equal(await field().inputValue(), `VANNES MATIN#${token}`))
   await page.waitForFunction(() => /pinned/.test(document.querySelector('aside .token[aria-pressed=true]')?.textContent))
-  await button('Least cost again').click()
+  await button('Use the lowest cost').click()
   await until(async () => assert.equal(await field().inputValue(), 'VANNES MATIN'))
 })
 
-test('goes from junction to junction, and repeats what lies around each', async () => {
+test('moves from junction to junction, and loops the motion around each', async () => {
   await compose('VANNES MATIN PLUIE')
   await page.locator('.junction').first().click()
   await until(async () => assert.match(await page.locator('aside h2').textContent(), /Junction 1: VANNES – MATIN/))
@@ -143,7 +143,7 @@ test('goes from junction to junction, and repeats what lies around each', async 
     near(loop.end, junctions[0].end + 0.4)
   })
   await until(async () => assert.match(await page.locator('aside .fact').textContent(), new RegExp(junctions[0].method)))
-  await button('Junction after').click()
+  await button('Next junction').click()
   await until(async () => near((await transport(page)).loop.begin, junctions[1].begin - 0.4))
   await pause()
   await page.getByLabel('Pause').selectOption('comma')
@@ -157,7 +157,7 @@ test('goes from junction to junction, and repeats what lies around each', async 
   await page.keyboard.press('Escape')
 })
 
-test('compares two methods in step: the same signs, other transitions', async () => {
+test('compares two synchronized methods: the same signs, other transitions', async () => {
   await compose('VANNES SOLEIL-BRILLER')
   await page.locator('.junction').first().click()
   await page.getByRole('combobox', { name: 'With' }).selectOption('sine')
@@ -188,14 +188,14 @@ test('compares two methods in step: the same signs, other transitions', async ()
   )
   assert.ok(apart.same && apart.inside > 0.02 && apart.outside < 1e-4, JSON.stringify(apart))
   near(apart.time, 1.5, 0.02)
-  await button('sine for all').click()
+  await button('sine everywhere').click()
   await page.waitForFunction(() => new URLSearchParams(location.hash.split('?')[1]).get('transition') === 'sine')
   await page.getByRole('combobox', { name: 'With' }).selectOption('')
   await page.waitForFunction(() => window.signweaveStage.panes.length === 1)
   await page.waitForFunction(() => /sine/.test(document.querySelector('aside .fact').textContent))
 })
 
-test('gives one junction a method, a duration and a tempo of its own, also where a recorded transition was kept', async () => {
+test('sets method, duration and tempo of one junction, also for a recorded transition', async () => {
   await compose('MONTAGNE#1 NEIGE#1 VANNES#1')
   await page.locator('.junction').first().click()
   await pause()
@@ -208,24 +208,24 @@ test('gives one junction a method, a duration and a tempo of its own, also where
   await page.keyboard.press('Enter')
   await fact('gap, 450 ms')
   await page.getByRole('combobox', { name: 'Tempo' }).selectOption('own')
-  await page.getByRole('slider', { name: 'Of its own' }).fill('1.5')
+  await page.getByRole('slider', { name: 'Custom' }).fill('1.5')
   await fact('gap, 300 ms')
   await until(async () => assert.match(await page.locator('.junction').last().getAttribute('aria-label'), /taught/))
   await page.waitForFunction(() => decodeURIComponent(location.hash).includes('junctions=1=gap,450ms,x1.5'))
-  await button('As for all again').click()
+  await button('Reset to the general settings').click()
   await fact('The recorded transition')
-  await page.getByRole('combobox', { name: 'With' }).selectOption('sine') // beside what was recorded, what the method makes of it
+  await page.getByRole('combobox', { name: 'With' }).selectOption('sine') // next to the recorded transition, the one generated by the method
   await page.waitForFunction(() => window.signweaveStage.panes.length === 2)
   await until(async () => assert.ok(await page.evaluate(() => window.signweaveStage.panes[0].store.length !== window.signweaveStage.panes[1].store.length)))
 })
 
-test('says for all how long transitions are, and how fast it goes', async () => {
+test('sets the general duration, tempo and frame rate', async () => {
   await compose('VANNES MATIN', { duration: '300' })
   const { duration } = await transport(page)
   await until(async () => assert.equal(await page.locator('.junction .ms').textContent(), '300'))
   await page.getByLabel('Tempo').fill('2')
   await page.waitForFunction((before) => Math.abs(window.signweaveStage.transport.duration - before / 2) < 0.05, duration)
-  await page.getByLabel('Frames a second').fill('50')
+  await page.getByLabel('Frames per second').fill('50')
   await page.keyboard.press('Enter')
   await page.waitForFunction(() => window.signweaveStage.transport.rate === 50)
   await page.waitForFunction(() => /duration=300&tempo=2&rate=50/.test(location.hash))
@@ -234,12 +234,12 @@ test('says for all how long transitions are, and how fast it goes', async () => 
   await until(async () => assert.equal(await page.locator('aside input[type=number]').inputValue(), '300'))
 })
 
-mainTest('saves a project and opens it again by button and by drop; what is none is told, and nothing is lost', async () => {
+mainTest('saves a project and opens it again by button and by drop; invalid files are reported, and nothing is lost', async () => {
   await compose('VANNES MATIN#2 , "LE MANS"', { tempo: '1.5' })
   const file = await saved(() => button('Save project').click())
   assert.equal(file.name, 'VANNES_MATIN_2_LE_MANS.signweave.json')
   assert.equal(JSON.parse(file.bytes).places[2].pause, 'comma')
-  await pick('Open', 'Start anew')
+  await pick('Open', 'Start over')
   await until(async () => assert.deepEqual(await cards(), []))
   await page.locator('input[type=file]').setInputFiles({ name: file.name, mimeType: 'application/json', buffer: file.bytes })
   await shown('VANNES MATIN#2 , "LE MANS"')
@@ -259,7 +259,7 @@ mainTest('saves a project and opens it again by button and by drop; what is none
   await until(async () => assert.deepEqual(await cards(), ['VANNES', 'MATIN#2', 'LE MANS']))
 })
 
-test('copies a link that opens the same', async () => {
+test('copies a link that opens the same project', async () => {
   await context.grantPermissions(['clipboard-read', 'clipboard-write'])
   await compose('VANNES PLUIE', { transition: 'gap' })
   await button('Copy link').click()
@@ -270,16 +270,16 @@ test('copies a link that opens the same', async () => {
   await shown('VANNES PLUIE')
   await until(async () => assert.equal(await page.getByRole('combobox', { name: 'Transition' }).inputValue(), 'gap'))
   await page.evaluate(() => (location.hash = '#/demo/compose?utterance=A&tempo=fast'))
-  await page.getByText('does not understand: tempo').waitFor()
+  await page.getByText('does not understand parts of the link: tempo').waitFor()
   await until(async () => assert.deepEqual(await cards(), ['A']))
   await page.getByRole('link', { name: 'Recordings' }).click()
   await page.locator('tbody').first().waitFor()
-  await page.getByRole('link', { name: 'Compose' }).click() // whoever comes back goes on with what was there
+  await page.getByRole('link', { name: 'Compose' }).click() // a returning user continues with the previous state
   await page.locator('.card').waitFor()
   await until(async () => assert.deepEqual(await cards(), ['A']))
 })
 
-test('opens the paper’s scenarios, the original beside them, and starts from a recording', async () => {
+test('opens the paper’s scenarios with the original, and starts from a recording', async () => {
   await visit('#/demo/compose')
   await button('Scenario 1: four words replaced by city signs').dblclick() // is one step
   await page.waitForFunction(() => window.signweaveStage?.panes.length === 2)
@@ -290,18 +290,18 @@ test('opens the paper’s scenarios, the original beside them, and starts from a
   await until(async () =>
     assert.deepEqual(
       (await page.locator('.title').allTextContents()).map((one) => one.trim().slice(0, 14)),
-      ['Recorded meteo', 'Made BONJOUR#1'],
+      ['Recorded meteo', 'Generated BONJ'],
     ),
   )
   await until(async () => assert.equal(await page.locator('.junction:not(.kept)').count(), 8))
   const steps = await page.evaluate(() => [5, 40].map((t) => window.signweaveStage.panes[0].timeOf(t)))
-  near(steps[0], 6.2, 0.05) // what was made begins with the first sign
+  near(steps[0], 6.2, 0.05) // the result begins with the first sign
   assert.ok(Math.abs(steps[1] - 40) > 0.05)
   await button('Undo').click()
   await until(async () => assert.deepEqual([await cards(), await button('Undo').isDisabled()], [[], true]))
-  await pick('Open', 'Scenario 2: the predictions of two days change places')
+  await pick('Open', 'Scenario 2: the predictions of two days swapped')
   await page.waitForFunction(() => /#1 NUAGES#2 NUIT#1 EN-MER#1 MATIN#2 BROUILLARD#1 DEMAIN#1/.test(document.querySelector('.compose').dataset.made))
-  await button('Original beside').click()
+  await button('Compare with the original').click()
   await page.waitForFunction(() => window.signweaveStage.panes.length === 1)
   await pick('Open', 'villes')
   await page.waitForFunction(() => /^VANNES#1 /.test(document.querySelector('.compose').dataset.made))
@@ -324,16 +324,16 @@ mainTest('downloads motion and annotation', async () => {
   assert.match(String(eaf.bytes), /placeholder shapes, not LSF[^]*taught \d+ ms: VANNES -&gt; MATIN/)
 })
 
-test('makes a film in the page, every picture of it with what the recordings declare, and gives one up', async () => {
+test('renders a video in the page, with the recordings’ declarations in every frame, and cancels one', async () => {
   await compose('VANNES', { tempo: '2' })
   const seconds = await page.evaluate(() => window.signweaveStage.panes[0].store.seconds)
   await pick('Download', /^WebM/)
-  await page.getByLabel('Size').selectOption('1920x1080') // slow enough to be given up
-  await button('Make the film').click()
-  await page.getByText(/Picture [1-9]/).waitFor()
+  await page.getByLabel('Size').selectOption('1920x1080') // slow enough to be cancelled
+  await button('Render the video').click()
+  await page.getByText(/Frame [1-9]/).waitFor()
   await button('Cancel').click()
   await page.getByLabel('Size').selectOption('640x360')
-  const film = await saved(() => button('Make the film').click())
+  const film = await saved(() => button('Render the video').click())
   assert.equal(film.name, 'VANNES.webm')
   const webm = readWebm(film.bytes)
   assert.equal(webm.blocks.length, Math.floor(seconds * 30 + 1e-6) + 1)
@@ -347,11 +347,11 @@ test('makes a film in the page, every picture of it with what the recordings dec
   await until(async () => assert.equal(await page.evaluate(() => window.signweaveStage.panes.length), 1))
 })
 
-test('says where the browser can make no film', async () => {
+test('reports if the browser cannot encode video', async () => {
   await compose('VANNES')
   await page.evaluate(() => delete window.VideoEncoder)
   await pick('Download', /^WebM/)
-  await until(async () => assert.match(await page.locator('dialog [role=alert]').textContent(), /no WebCodecs/))
+  await until(async () => assert.match(await page.locator('dialog [role=alert]').textContent(), /lacks WebCodecs/))
   await page.keyboard.press('Escape')
 })
 
@@ -363,7 +363,7 @@ for (const [theme, language] of [
     { width: 1280, height: 720 },
     { width: 390, height: 844 },
   ]) {
-    test(`an accessibility checker finds nothing where one composes, ${theme}, ${language}, ${size.width} wide`, async () => {
+    test(`an accessibility checker finds nothing on the compose page, ${theme}, ${language}, ${size.width} wide`, async () => {
       if (!page) await visit('')
       await page.evaluate(([t, l]) => (localStorage.setItem('signweave.theme', t), localStorage.setItem('signweave.language', l)), [theme, language])
       const found = []

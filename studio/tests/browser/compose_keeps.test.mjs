@@ -1,11 +1,11 @@
-// Where one composes nothing is lost: not what is typed with a fault, not a word where a stream breaks, not what is known beside what is not.
+// Composing loses nothing: neither text with a fault, nor a word when a stream breaks, nor known places next to unknown ones.
 import assert from 'node:assert/strict'
 import { button, cards, compose, field, pick, shown } from './compose_tools.mjs'
 import { axeFaults } from './page_tools.mjs'
 import { page, test, visit } from './suite.mjs'
 import { signedLive, until } from './waits.mjs'
 
-test('loses no text that has a fault: not by moving signs, not by undo, not of a link', async () => {
+test('keeps a text with a fault: when moving signs, on undo, and from a link', async () => {
   await compose('VANNES MATIN')
   const typed = 'VANNES MATIN "LE MANS NUAGES'
   await field().fill(typed)
@@ -22,16 +22,16 @@ test('loses no text that has a fault: not by moving signs, not by undo, not of a
   await page.goBack()
   await page.locator('.card').first().waitFor()
   await until(async () => assert.equal(await field().inputValue(), typed))
-  await button('Take the text back').click()
+  await button('Discard the text').click()
   await until(async () => assert.deepEqual([await field().inputValue(), await page.getByText(/never closed/).count()], ['MATIN VANNES', 0]))
-  await button('Undo').click() // what was done before the other page was looked at
+  await button('Undo').click() // the step made before the other page was opened
   await until(async () => assert.deepEqual(await cards(), ['VANNES', 'MATIN']))
   await visit('#/demo/compose?utterance=VANNES+%22LE+MANS')
   await page.getByText(/never closed: "LE MANS/).waitFor()
   await until(async () => assert.equal(await field().inputValue(), 'VANNES "LE MANS'))
 })
 
-test('does not take an address back that was followed a moment ago', async () => {
+test('does not revert an address that was followed a moment ago', async () => {
   await compose('VANNES')
   const later = await page.evaluate(async () => {
     const field = document.querySelector('.compose [role=combobox]')
@@ -39,14 +39,14 @@ test('does not take an address back that was followed a moment ago', async () =>
     field.value = 'VANNES MATIN'
     field.dispatchEvent(new Event('input', { bubbles: true }))
     await after(0)
-    history.replaceState(null, '', '#/demo') // as a link does before the page is given the event
+    history.replaceState(null, '', '#/demo') // as a link does before the page receives the event
     await after(300) // Timers end in order: the one that writes the address has ended.
     return location.hash
   })
   assert.equal(later, '#/demo')
 })
 
-test('keeps what was done last: where the page is left at once, and where something slow comes after it', async () => {
+test('keeps the last change: if the page is left at once, and if a slow task follows', async () => {
   await compose('VANNES')
   await page.locator('.card').click()
   await button('Duplicate').waitFor()
@@ -65,7 +65,7 @@ test('keeps what was done last: where the page is left at once, and where someth
   await page.locator('.card').last().focus()
   await page.keyboard.press('Delete')
   go()
-  await page.getByText('villes was not opened, for the signs were changed meanwhile').waitFor()
+  await page.getByText('villes was not opened, because the signs were changed meanwhile').waitFor()
   await until(async () => assert.deepEqual(await cards(), ['VANNES']))
 })
 
@@ -80,7 +80,7 @@ test('signs what was typed before the glosses were loaded', async () => {
   await shown('VANNES')
 })
 
-test('makes files side by side, and says so', async () => {
+test('prepares files in parallel, and says so', async () => {
   await compose('VANNES')
   let go
   const held = new Promise((resolve) => (go = resolve))
@@ -89,14 +89,14 @@ test('makes files side by side, and says so', async () => {
   page.on('download', (file) => files.push(file.suggestedFilename()))
   await pick('Download', /^BVH/)
   await pick('Download', /^EAF/)
-  await page.getByText('VANNES.bvh, VANNES.eaf: being made…').waitFor()
+  await page.getByText('VANNES.bvh, VANNES.eaf: in preparation…').waitFor()
   const second = new Promise((resolve) => page.on('download', () => files.length === 2 && resolve()))
   go()
   await second
   assert.deepEqual(files.sort(), ['VANNES.bvh', 'VANNES.eaf'])
 })
 
-test('tells what tokens cost beside a sign that the database does not know, and when something is tried again', async () => {
+test('shows token costs next to a sign that the database does not know, and after a retry', async () => {
   let broken = true
   await visit('')
   await page.route('**/sign', (route) => (broken ? route.abort() : route.continue()))
@@ -109,29 +109,29 @@ test('tells what tokens cost beside a sign that the database does not know, and 
   broken = true
   await page.locator('.card').nth(2).click()
   await page.locator('aside .fault:not([hidden])').waitFor()
-  await until(async () => assert.equal(await page.locator('aside .token').count(), 0)) // costs of the other VANNES are none of this one
+  await until(async () => assert.equal(await page.locator('aside .token').count(), 0)) // costs of the other VANNES do not apply to this one
 })
 
-test('signs live: each word at once, and tells what cannot be', async () => {
+test('signs live: each word at once, and reports refused ones', async () => {
   await compose('VANNES')
   await button('Live').click()
-  await page.getByRole('combobox', { name: 'Type and it signs' }).waitFor()
-  await page.keyboard.type('NOBODY MATIN MATIN ') // while the stream is opened
+  await page.getByRole('combobox', { name: 'Type to sign' }).waitFor()
+  await page.keyboard.type('NOBODY MATIN MATIN ') // while the stream is being opened
   await page.waitForFunction(() => window.signweaveStage?.panes[0]?.store.arrived > 0)
   await page.keyboard.type('NOBODY2 MATIN ')
   await signedLive(page, 'MATIN')
   await page.waitForFunction(() => document.querySelectorAll('.card').length === 4)
   await until(async () => assert.match(await page.getByRole('alert').textContent(), /no sign 'NOBODY'[^]*no sign 'NOBODY2'/))
   await until(async () => assert.deepEqual(await cards(), ['VANNES', 'MATIN', 'MATIN', 'MATIN']))
-  await page.locator('.card').first().click() // what is chosen ends it, and has its panel
+  await page.locator('.card').first().click() // a selection ends it, and opens its panel
   await page.locator('aside .token').first().waitFor()
   await shown('VANNES MATIN MATIN MATIN')
 })
 
-test('signs live what was meant by a gloss that is not there, at a click', async () => {
+test('signs a suggestion for an unknown gloss live, with one click', async () => {
   await compose('VANNES')
   await button('Live').click()
-  const live = page.getByRole('combobox', { name: 'Type and it signs' })
+  const live = page.getByRole('combobox', { name: 'Type to sign' })
   await live.waitFor()
   await page.waitForFunction(() => window.signweaveStage?.panes[0]?.store.arrived > 0)
   await live.pressSequentially('PLUIEE MATIN VANES XQZZ ')
@@ -140,14 +140,14 @@ test('signs live what was meant by a gloss that is not there, at a click', async
   await until(async () => assert.deepEqual(await offered(), ['PLUIE', 'VANNES', 'NANTES']))
   assert.deepEqual(await axeFaults(page), [])
   await button('Sign NANTES').click()
-  // It is signed after what was typed since, its line goes, and one types on.
+  // It is signed after what was typed since, its message disappears, and typing continues.
   await until(async () => assert.deepEqual(await cards(), ['VANNES', 'MATIN', 'NANTES']))
   await until(async () => assert.deepEqual(await offered(), ['PLUIE']))
   await until(async () => assert.ok(await live.evaluate((field) => field === document.activeElement)))
   await signedLive(page, 'NANTES')
 })
 
-test('loses no word where the stream breaks', async () => {
+test('loses no word if the stream breaks', async () => {
   let gone = () => {},
     whole = true
   await visit('')
@@ -159,13 +159,13 @@ test('loses no word where the stream breaks', async () => {
   await page.evaluate(() => (location.hash = '#/demo/compose?utterance=VANNES'))
   await shown('VANNES')
   await button('Live').click()
-  const live = page.getByRole('combobox', { name: 'Type and it signs' })
+  const live = page.getByRole('combobox', { name: 'Type to sign' })
   await page.waitForFunction(() => document.querySelector('.player.live') && window.signweaveStage?.panes[0]?.store.arrived > 0)
   whole = false
   gone()
   await page.locator('.trouble').waitFor()
   await live.pressSequentially('PLUIE NUAGES ')
-  await page.getByText('stands in the field again').waitFor()
+  await page.getByText('are in the field again').waitFor()
   await until(async () => assert.deepEqual([await live.inputValue(), await cards()], ['PLUIE NUAGES ', ['VANNES']]))
   whole = true
   await page.locator('.trouble').getByRole('button', { name: 'Try again' }).click()
@@ -178,7 +178,7 @@ test('loses no word where the stream breaks', async () => {
   gone()
   await page.locator('.trouble').waitFor()
   await live.pressSequentially('MATIN ')
-  await page.getByText('stands in the field again').waitFor()
-  await button('Live').click() // what was not signed joins the row
+  await page.getByText('are in the field again').waitFor()
+  await button('Live').click() // signs that were not signed are added to the row
   await until(async () => assert.deepEqual(await cards(), ['VANNES', 'PLUIE', 'NUAGES', 'MATIN']))
 })

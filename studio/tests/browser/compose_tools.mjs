@@ -1,4 +1,4 @@
-// What every test of the page where one composes does.
+// Helpers shared by the tests of the compose page.
 import { readFileSync } from 'node:fs'
 import { page, visit } from './suite.mjs'
 
@@ -10,19 +10,19 @@ export const pause = () =>
     window.signweaveStage.transport.pause()
   })
 
-/** Until what was made of a text is on the screen. */
+/** Waits until the result of a text is on the screen. */
 export const shown = (text) =>
   page.waitForFunction((wanted) => {
     const { made, busy } = document.querySelector('.compose')?.dataset ?? {}
     return busy === 'false' && made === wanted && window.signweaveStage?.panes.length > 0
   }, text)
-/** Opens the page with an utterance, and stops the picture, which software draws slowly. */
+/** Opens the page with an utterance, and pauses playback, which is slow with software rendering. */
 export async function compose(utterance, more = {}, options = {}) {
   await visit(`#/demo/compose?${new URLSearchParams({ utterance, ...more })}`, options)
   await shown(utterance)
   await pause()
 }
-/** Picks something from a menu of the tools. */
+/** Picks an item from a menu of the toolbar. */
 export async function pick(menu, name) {
   await button(menu).click()
   await page.locator('.list').getByRole('button', { name }).click()

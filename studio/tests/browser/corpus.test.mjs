@@ -7,7 +7,7 @@ import { withServer } from './server.mjs'
 import { address, context, folder, mainTest, page, test, visit } from './suite.mjs'
 import { until } from './waits.mjs'
 
-/** Drops files on the page, made there. */
+/** Drops files created in the page. */
 const drop = (list) =>
   page.evaluate((all) => {
     const transfer = new DataTransfer()
@@ -26,13 +26,13 @@ const dropFromDisk = async (paths) => {
 }
 const names = () => page.locator('.list .line:not(.head) > :nth-child(1)').allTextContents()
 
-test('takes files that are dropped and folders, and says at once what cannot be sent', async () => {
+test('accepts dropped files and folders, and reports at once what cannot be sent', async () => {
   await begin()
   const walk = ['walk.bvh', 'HIERARCHY\nROOT']
   await drop([walk, ['film.mp4', 'x'], ['notes.txt', 'x'], ['a:b.bvh', 'x'], ['.hidden.bvh', 'x']])
   await page.getByText('Files that cannot be sent: 4.').waitFor()
   await until(async () => assert.match(await page.locator('main').textContent(), /the server reads \.bvh .*\.eaf/))
-  await until(async () => assert.match(await page.locator('main').textContent(), /films are not stored/))
+  await until(async () => assert.match(await page.locator('main').textContent(), /videos are not stored/))
   await button('Remove them').click()
   await until(async () => assert.deepEqual(await names(), ['walk.bvh']))
   // By keyboard, too.
@@ -43,8 +43,8 @@ test('takes files that are dropped and folders, and says at once what cannot be 
   for (const day of ['one', 'two']) files('same', { into: join(days, day), seconds: 1 })
   writeFileSync(join(days, '.DS_Store'), 'x')
   await page.locator('input[webkitdirectory]').setInputFiles(days)
-  await page.getByText('Files of the same name lie in several folders').waitFor()
-  await button('Put their folders’ names in front').click()
+  await page.getByText('Several folders contain files of the same name').waitFor()
+  await button('Prefix with the folder names').click()
   await until(async () =>
     assert.deepEqual(
       (await names()).map((name) => name.replace(/.*\//, '')),
@@ -53,25 +53,25 @@ test('takes files that are dropped and folders, and says at once what cannot be 
   )
 })
 
-mainTest('takes a folder that is dropped, with all that is in it', async () => {
+mainTest('accepts a dropped folder with all its contents', async () => {
   await begin()
   const week = join(folder, 'week')
   const [, eaf] = files('monday', { into: join(week, 'early'), seconds: 1 })
   files('tuesday', { into: join(week, 'late', 'evening'), seconds: 1 })
   writeFileSync(join(week, 'late', '.DS_Store'), 'x')
-  // Browsers tell a folder's files by the hundred.
+  // Browsers return a folder's files by the hundred.
   mkdirSync(join(week, 'many'))
   for (let k = 0; k < 130; ++k) copyFileSync(eaf, join(week, 'many', `note ${1000 + k}.eaf`))
   await dropFromDisk([week, files('alone', { seconds: 1 })[0]])
   await page.getByText(/^Files: 135,/).waitFor()
-  await page.getByText('Hidden files of folders that were left out: 1.').waitFor()
+  await page.getByText('Hidden files in folders that were skipped: 1.').waitFor()
   await until(async () => assert.equal(await page.locator('.drop.over').count(), 0))
   await until(async () =>
     assert.deepEqual((await names()).slice(0, 4), ['alone.bvh', 'week/early/monday.bvh', 'week/early/monday.eaf', 'week/late/evening/tuesday.bvh']),
   )
-  // They are the files themselves: what is in them is what is sent.
+  // The files themselves are referenced: their current content is sent.
   rmSync(join(week, 'many'), { recursive: true })
-  await button('Begin anew').click()
+  await button('Start over').click()
   await dropFromDisk([week])
   await page.getByText(/^Files: 4,/).waitFor()
   await look()
@@ -79,7 +79,7 @@ mainTest('takes a folder that is dropped, with all that is in it', async () => {
   await until(async () => assert.match(await row('monday').textContent(), /monday\s*new\s*1\.0 s\s*36/))
 })
 
-test('sends with a progress in bytes, and again only what failed', async () => {
+test('shows the progress in bytes, and sends again only what failed', async () => {
   await begin()
   await choose([...files('first'), ...files('second')])
   const put = []
@@ -89,13 +89,13 @@ test('sends with a progress in bytes, and again only what failed', async () => {
     put.push(name)
     return name === 'second.bvh' && broken ? route.abort() : route.continue()
   })
-  await button('Send and look').click()
+  await button('Send and inspect').click()
   await button('Send the rest').waitFor()
   await until(async () => assert.match(await page.locator('.list').textContent(), /not sent: The server does not answer/))
   assert.deepEqual(put.toSorted(), ['first.bvh', 'first.eaf', 'second.bvh', 'second.eaf'])
   broken = false
   put.length = 0
-  // Over a slow line one sees how many bytes have gone, within a file, too; cancelled, it is still to be sent.
+  // On a slow connection the number of bytes sent is shown, within a file, too; after cancelling, the file is still to be sent.
   const line = await context.newCDPSession(page)
   const speed = (uploadThroughput) => line.send('Network.emulateNetworkConditions', { offline: false, latency: 0, downloadThroughput: -1, uploadThroughput })
   await speed(200_000)
@@ -114,7 +114,7 @@ test('sends with a progress in bytes, and again only what failed', async () => {
   await until(async () => assert.equal((await stored()).length, 0))
 })
 
-mainTest('reports what was guessed, and stores what was corrected', async () => {
+mainTest('reports guesses, and stores corrections', async () => {
   await begin()
   const turned = (text) => text.replaceAll('Gloss"', 'Words"').replaceAll('Phase"', 'Parts"')
   writeFileSync(join(folder, 'broken.bvh'), 'HIERARCHY\nROOT')
@@ -128,29 +128,29 @@ mainTest('reports what was guessed, and stores what was corrected', async () => 
   const article = page.locator('article')
   for (const fact of [
     /Frames\s*800/,
-    /Frames a second\s*100/,
+    /Frames per second\s*100/,
     /Vertical axis\s*Y/,
     /Unit, m\s*0\.01/,
     /Mirrored\s*no/,
     /sign tier 'Gloss' guessed/,
     /frozen joint · 3 frames 171 to 287, RightHandRing3/,
-    /Names as MotionBuilder has them/,
+    /Names follow MotionBuilder/,
     /synthetic motion: placeholder shapes/,
   ]) {
     await until(async () => assert.match(await article.textContent(), fact))
   }
-  // One recording: who signs, what a tier is, which joint is what; all: the unit.
+  // One recording: the signer, a tier's role, a joint's part; all recordings: the unit.
   await page.locator('#one-signer').fill('Zoé')
   await page.getByLabel('Joint: left wrist').fill('LeftForeArm')
   await page.keyboard.press('Tab')
   await settled()
   await until(async () => assert.match(await article.textContent(), /LeftForeArm.*(two parts|already|before)|forearm/i))
-  await until(async () => assert.equal(await page.getByLabel('Joint: left wrist').inputValue(), 'LeftForeArm', 'what was typed is lost by a fault'))
-  await button('As the server tells it').click()
+  await until(async () => assert.equal(await page.getByLabel('Joint: left wrist').inputValue(), 'LeftForeArm', 'typed text was lost by a fault'))
+  await button('Reset to the server’s guess').click()
   await page.getByLabel('Joint: jaw').fill('')
   await page.keyboard.press('Tab')
   await row('other').click()
-  await page.getByLabel('Taken as: Words').selectOption('signs')
+  await page.getByLabel('Used as: Words').selectOption('signs')
   await page.getByLabel('Hand: Words').selectOption('right')
   await settled()
   await page.getByText('Corrections for all recordings').click()
@@ -179,12 +179,12 @@ mainTest('reports what was guessed, and stores what was corrected', async () => 
   await row('other').click()
   await page.getByRole('link', { name: 'Open' }).click()
   await page.waitForFunction(() => /recording\/other/.test(location.hash))
-  // The import is still there for whoever comes back.
+  // The import is still there on return.
   await page.goBack()
   await page.getByText('Stored: 2').waitFor()
 })
 
-test('takes a table of pairs and a mapping file, as a person wrote them', async () => {
+test('reads a hand-written table of pairs and mapping file', async () => {
   await begin()
   await choose([...files('day1', { seconds: 2 }), ...files('notes', { motion: false })])
   await drop([
@@ -195,7 +195,7 @@ test('takes a table of pairs and a mapping file, as a person wrote them', async 
   await look()
   await row('day1').click()
   await settled()
-  // What the mapping file says of a joint that is none can be mended here.
+  // An invalid joint in the mapping file can be corrected here.
   await page.locator('article').getByRole('alert').getByText('nope').waitFor()
   await until(async () => assert.equal(await page.getByLabel('Joint: pelvis').inputValue(), 'nope'))
   await page.getByLabel('Joint: pelvis').fill('Hips')
@@ -211,7 +211,7 @@ test('takes a table of pairs and a mapping file, as a person wrote them', async 
   assert.deepEqual([one.signer, one.annotation_file, one.rig.parts.jaw], ['Ada', 'notes.eaf', undefined])
 })
 
-test('says what becomes of a recording that is known, and pairs files as it is told', async () => {
+test('reports the effect on a known recording, and pairs files on request', async () => {
   await begin()
   const other = (text) => text.replace('>BONJOUR<', '>SALUT<')
   await choose([...files('plain', { change: other }), ...files('alone', { motion: false })])
@@ -220,7 +220,7 @@ test('says what becomes of a recording that is known, and pairs files as it is t
   await page.getByText('The database has a recording of this name').waitFor()
   await row('alone').click()
   await until(async () => assert.match(await page.locator('article').textContent(), /it can be searched, not signed/))
-  // The motion gets the annotation of another name, and is split from it again; what no recording has is told.
+  // The motion is paired with an annotation of another name, and separated again; unused files are reported.
   await page.getByLabel('Motion', { exact: true }).selectOption('plain.bvh')
   await settled()
   await until(async () => assert.deepEqual(await page.locator('.report .name').allTextContents(), ['plain']))
@@ -233,7 +233,7 @@ test('says what becomes of a recording that is known, and pairs files as it is t
   await settled()
   await until(async () => assert.deepEqual(await page.locator('.report .name').allTextContents(), ['alone', 'plain']))
   await row('alone').getByRole('checkbox').uncheck()
-  // Read with another unit than it was, it is another motion: that is taken only when told so.
+  // With another unit it is a different motion: it is accepted only on confirmation.
   await row('plain').click()
   await page.locator('#one-unit').fill('0.03')
   await page.keyboard.press('Tab')
@@ -241,7 +241,7 @@ test('says what becomes of a recording that is known, and pairs files as it is t
   await page.getByRole('button', { name: /^Import 1$/ }).click()
   await page.getByText('Not stored: 1').waitFor()
   await until(async () => assert.match(await page.locator('article').textContent(), /is not the motion that recording 'plain' was imported from/))
-  await page.locator('article').getByLabel('Replace motion and face that are stored').check()
+  await page.locator('article').getByLabel('Replace the stored motion and face').check()
   await settled()
   await page.getByText('annotation, motion and face are replaced by these files').waitFor()
   await page.getByRole('button', { name: /^Import 1$/ }).click()
@@ -251,7 +251,7 @@ test('says what becomes of a recording that is known, and pairs files as it is t
   await until(async () => assert.equal((await stored()).length, 3))
 })
 
-/** Holds calls whose address fits until told to let them go on. */
+/** Holds calls whose address matches until they are released. */
 async function held(what) {
   let go
   const gone = new Promise((resolve) => (go = resolve)),
@@ -264,27 +264,27 @@ const uploads = () => {
   page.on('request', (request) => /\/uploads\/[^/]+\/inspect$/.test(request.url()) && seen.add(request.url().replace(/\/inspect$/, '')))
   return seen
 }
-/** Until the server has none of these uploads any more. */
+/** Waits until the server has none of these uploads any more. */
 async function given(seen) {
   for (const end = Date.now() + 30_000; (await Promise.all([...seen].map(async (url) => (await fetch(url)).status))).some((status) => status !== 404);) {
-    assert.ok(Date.now() < end, 'an upload that nobody wants is still there')
+    assert.ok(Date.now() < end, 'an unused upload is still there')
     await new Promise((resolve) => setTimeout(resolve, 50))
   }
 }
 
-test('loses no correction, whether it is made meanwhile, wrong, or the server is away', async () => {
+test('loses no correction, whether made during a job, invalid, or while the server is unreachable', async () => {
   await begin()
   const seen = uploads()
   await choose(['one', 'two'].flatMap((name) => files(name, { seconds: 2 })))
-  // Looking that was cancelled can only be begun again: that is said.
+  // A cancelled inspection can only be restarted: this is reported.
   await page.route(/\/inspect$/, (route) => route.fulfill({ status: 202, json: { job: 'none' } }), { times: 1 })
   await page.route(/\/jobs\/none$/, (route) => route.fulfill({ json: { job: 'none', kind: 'inspect', state: 'cancelled', fraction: 0 } }))
-  await button('Send and look').click()
-  await page.getByText('Not looked at yet: “Look again” goes on.').waitFor()
+  await button('Send and inspect').click()
+  await page.getByText('Not inspected yet: “Inspect again” continues.').waitFor()
   await look()
   const article = page.locator('article'),
     importing = page.locator('.foot .primary')
-  // While the one is looked at again, the other is mirrored.
+  // While one is inspected again, the other is mirrored.
   const first = await held(/\/inspect$/)
   await row('one').click()
   await page.locator('#one-signer').fill('Ada')
@@ -295,35 +295,35 @@ test('loses no correction, whether it is made meanwhile, wrong, or the server is
   first.go()
   await settled()
   await until(async () => assert.match(await article.textContent(), /Mirrored\s*yes/))
-  // A joint that is none stays as it was typed beside what is wrong with it, and can be mended.
+  // An invalid joint stays as typed next to the fault, and can be corrected.
   await page.getByLabel('Joint: pelvis').fill('nope')
   await page.keyboard.press('Tab')
   await settled()
   await article.getByRole('alert').getByText('nope').waitFor()
-  await until(async () => assert.match(await row('two').textContent(), /not taken/))
+  await until(async () => assert.match(await row('two').textContent(), /rejected/))
   await until(async () => assert.match(await article.textContent(), /Mirrored\s*yes/))
   await until(async () => assert.equal(await page.getByLabel('Joint: pelvis').inputValue(), 'nope'))
-  await button('As the server tells it').click()
+  await button('Reset to the server’s guess').click()
   await settled()
   await until(async () => assert.match(await row('two').textContent(), /new/))
-  // The server is away: nothing is imported that it did not look at.
+  // The server is unreachable: nothing is imported without inspection.
   await page.route(/\/inspect$/, (route) => route.abort(), { times: 1 })
   await page.locator('#one-unit').fill('0.02')
   await page.keyboard.press('Tab')
-  await page.getByText('Corrected, and not looked at since: 1.').waitFor()
-  await until(async () => assert.match(await row('two').textContent(), /not looked at/))
+  await page.getByText('Corrected, but not inspected since: 1.').waitFor()
+  await until(async () => assert.match(await row('two').textContent(), /not inspected/))
   await until(async () => assert.ok(await importing.isDisabled()))
   assert.deepEqual(await faultsOf('the server is away'), [])
   await button('Try again').click()
   await settled()
   await until(async () => assert.match(await article.textContent(), /Unit, m\s*0\.02/))
   await until(async () => assert.ok(await importing.isEnabled()))
-  // An upload of which nothing is imported goes with the window.
+  // An upload from which nothing is imported is discarded when the window closes.
   await page.goto('about:blank')
   await given(seen)
 })
 
-test('imports the others where one is not taken, takes no files meanwhile, and gives up what is left out', async () => {
+test('imports the others if one is rejected, accepts no files meanwhile, and discards what is left out', async () => {
   await begin()
   const seen = uploads()
   await choose(['one', 'two', 'three'].flatMap((name) => files(name, { seconds: 2 })))
@@ -332,13 +332,13 @@ test('imports the others where one is not taken, takes no files meanwhile, and g
   await page.locator('#one-face_timecode').fill('99:99:99:99')
   await page.keyboard.press('Tab')
   await settled()
-  await page.getByText('Left out, for their corrections are not taken: 1.').waitFor()
+  await page.getByText('Left out because their corrections are rejected: 1.').waitFor()
   await row('three').getByRole('checkbox').uncheck()
   const stores = await held(/\/import$/)
   await page.getByRole('button', { name: /^Import 1$/ }).click()
   await stores.came
   await drop([['more.bvh', 'x']])
-  await page.locator('.foot').getByRole('alert').getByText('Not done, for files were being sent').waitFor()
+  await page.locator('.foot').getByRole('alert').getByText('Rejected, because files were being sent').waitFor()
   await page.locator('summary', { hasText: 'Files: 6' }).click()
   await page.getByRole('grid', { name: 'Files' }).focus()
   await page.keyboard.press('Delete')
@@ -350,20 +350,20 @@ test('imports the others where one is not taken, takes no files meanwhile, and g
   await until(async () => assert.ok((await stored()).some(({ name }) => name === 'two')))
   await page.getByRole('link', { name: 'Recordings of mine' }).click()
   await given(seen)
-  // What was left out is still known, and is sent anew where it is wanted.
+  // Recordings left out are still known, and are sent again if wanted.
   await page.goBack()
   await row('three').getByRole('checkbox').check()
   await page.getByRole('button', { name: /^Import 1$/ }).click()
   await page.getByText('Stored: 2').waitFor()
 })
 
-test('takes recordings of signs, with a mend that the server names', async () => {
+test('imports recordings of signs, with a fix that the server suggests', async () => {
   if (!existsSync(kThanks)) return console.log('not run: no shared data (bvh/signon-thanks)')
   await begin()
   await choose(readdirSync(kThanks).map((name) => join(kThanks, name)))
   await look()
   await until(async () => assert.deepEqual(await page.locator('.report .name').allTextContents(), ['ISL Thanks', 'NGT Thanks', 'VGT Thanks']))
-  await page.locator('article').getByRole('button', { name: 'Mend all 3 that have it' }).click()
+  await page.locator('article').getByRole('button', { name: 'Fix all 3 with this notice' }).click()
   await settled()
   await until(async () => assert.doesNotMatch(await page.locator('article').textContent(), /permuted/))
   await page.getByRole('button', { name: /^Import 3$/ }).click()
@@ -371,12 +371,12 @@ test('takes recordings of signs, with a mend that the server names', async () =>
   await until(async () => assert.ok((await storedOne('ISL Thanks')).defects.every(({ kind }) => kind !== 'permuted root')))
 })
 
-test('stores nothing where it may only read', async () => {
+test('stores nothing with read-only access', async () => {
   await withServer(process.env.SITE, async (at) => {
     const reader = await context.newPage()
     try {
       await reader.goto(`${at}/#/demo/import`)
-      await reader.getByText('demo is served for reading only').waitFor()
+      await reader.getByText('demo is served read-only').waitFor()
       await until(async () => assert.equal(await reader.locator('input[type=file]').count(), 0))
       await reader.goto(`${at}/#/demo`)
       await reader.getByRole('button', { name: /Details of meteo/ }).click()
@@ -389,7 +389,7 @@ test('stores nothing where it may only read', async () => {
   })
 })
 
-test('finds recordings, sorts them, and opens the player where something is wrong', async () => {
+test('finds recordings, sorts them, and opens the player at a defect', async () => {
   await visit('#/mine')
   const shown = () => page.locator('tbody th a').allTextContents()
   await page.getByRole('searchbox').fill('O')
@@ -412,17 +412,17 @@ test('finds recordings, sorts them, and opens the player where something is wron
   await page.waitForFunction(() => window.signweaveStage?.panes[0]?.seen && Math.abs(window.signweaveStage.transport.time - 3.33) < 1e-6)
 })
 
-test('changes how recordings are stored, and removes only what is confirmed', async () => {
+test('changes the storage of recordings, and removes only what is confirmed', async () => {
   await visit('#/mine')
-  await page.getByLabel('Choose plain').check()
+  await page.getByLabel('Select plain').check()
   await button('Change storage').click()
-  await until(async () => assert.ok(await page.getByLabel('Those that are chosen: 1').isChecked()))
-  await page.getByLabel('How motion is cut').selectOption('by_joint_and_frame')
-  await page.getByLabel('Frames in a piece').fill('many')
+  await until(async () => assert.ok(await page.getByLabel('The selected ones: 1').isChecked()))
+  await page.getByLabel('How motion is split').selectOption('by_joint_and_frame')
+  await page.getByLabel('Frames per piece').fill('many')
   await until(async () => assert.ok(await button('Change').isDisabled()))
-  await page.getByLabel('Frames in a piece').fill('50')
+  await page.getByLabel('Frames per piece').fill('50')
   await button('Change').click()
-  await page.getByText('Stored anew: 1 of 1').waitFor()
+  await page.getByText('Changed: 1 of 1').waitFor()
   await button('Close').click()
   await page.locator('tr', { hasText: 'plain' }).getByText('by_joint_and_frame:50').waitFor()
   await until(async () =>
@@ -446,7 +446,7 @@ test('changes how recordings are stored, and removes only what is confirmed', as
   await page.waitForFunction(() => !/other/.test(document.querySelector('tbody').textContent))
 })
 
-test('cancels a change of storage while it goes, and says what was done', async () => {
+test('cancels a running change of storage, and reports what was done', async () => {
   // Pieces of a single frame take seconds.
   const kPieces = 'by_joint_and_frame:1'
   for (const [name, seconds] of [
@@ -457,22 +457,22 @@ test('cancels a change of storage while it goes, and says what was done', async 
   const modes = async () => Object.fromEntries((await stored()).map(({ name, access_mode: mode }) => [name, mode]))
   const before = await modes()
   await visit('#/mine')
-  for (const name of ['brief', 'long']) await page.getByLabel(`Choose ${name}`, { exact: true }).check()
+  for (const name of ['brief', 'long']) await page.getByLabel(`Select ${name}`, { exact: true }).check()
   await button('Change storage').click()
-  await page.getByLabel('How motion is cut').selectOption('by_joint_and_frame')
-  await page.getByLabel('Frames in a piece').fill('1')
-  await page.getByLabel('Frames in a piece').press('Enter')
-  // Until it is under way: the brief one is done soon.
+  await page.getByLabel('How motion is split').selectOption('by_joint_and_frame')
+  await page.getByLabel('Frames per piece').fill('1')
+  await page.getByLabel('Frames per piece').press('Enter')
+  // Waits until it is in progress: the short one finishes soon.
   await page.waitForFunction(() => document.querySelector('dialog progress')?.value >= 50)
   await button('Cancel').click()
-  await page.getByText('Cancelled: what was stored anew until then stays so, the others are as they were.').waitFor()
-  await page.getByText('Stored anew: 1 of 2').waitFor()
+  await page.getByText('Cancelled: recordings changed so far stay changed, the others are unchanged.').waitFor()
+  await page.getByText('Changed: 1 of 2').waitFor()
   await until(async () => assert.deepEqual(await modes(), { ...before, brief: kPieces }))
   // At once, by keyboard: nothing is done.
   await button('Change').click()
   await button('Cancel').focus()
   await page.keyboard.press('Enter')
-  await page.getByText('Cancelled: everything is as it was.').waitFor()
+  await page.getByText('Cancelled: nothing was changed.').waitFor()
   await until(async () => assert.deepEqual(await modes(), { ...before, brief: kPieces }))
   await button('Close').click()
   await page.locator('tr', { hasText: 'brief' }).getByText(kPieces).waitFor()
@@ -481,7 +481,7 @@ test('cancels a change of storage while it goes, and says what was done', async 
 })
 
 test('shows thousands of recordings without drawing them', async () => {
-  // What the server would answer for so many: none is made here.
+  // The server's answer for this many recordings, which are not created here.
   await visit('')
   await page.route(/\/api\/databases\/demo$/, async (route) => {
     const answer = await (await route.fetch()).json(),
@@ -534,11 +534,11 @@ for (const { name, size, set } of kWays) {
   })
 }
 
-test('leaves the database as it was', async () => {
+test('leaves the database unchanged', async () => {
   await visit('')
   await asBefore()
   await visit('#/mine')
-  await page.getByLabel('Choose all that are shown').check()
+  await page.getByLabel('Select all shown').check()
   await button('Remove').click()
   await page.getByRole('dialog').getByRole('button', { name: 'Remove' }).click()
   await page.getByText('Nothing here yet').waitFor()

@@ -1,4 +1,4 @@
-// What the tests of import, recordings and phases share.
+// Helpers shared by the tests of import, recordings and phases.
 import { mkdirSync, readFileSync, writeFileSync } from 'node:fs'
 import { dirname, join, resolve } from 'node:path'
 import { fileURLToPath } from 'node:url'
@@ -13,7 +13,7 @@ export const stored = async (database = 'mine') => (await (await fetch(`${addres
 export const storedOne = async (name) => (await fetch(`${address}/api/databases/mine/recordings/${encodeURIComponent(name)}`)).json()
 export const annotation = async (name) => (await fetch(`${address}/api/databases/mine/recordings/${encodeURIComponent(name)}/annotation`)).text()
 
-/** On the page of an import into `mine`. */
+/** Opens the page of an import into `mine`. */
 export async function begin() {
   await visit('#/mine/import')
   await page.locator('.drop').waitFor()
@@ -21,16 +21,16 @@ export async function begin() {
 }
 export const choose = (list) => page.locator('input[type=file]:not([webkitdirectory])').setInputFiles(list)
 export async function look() {
-  await page.getByRole('button', { name: /^(Send and look|Send the rest|Look again)$/ }).click()
+  await page.getByRole('button', { name: /^(Send and inspect|Send the rest|Inspect again)$/ }).click()
   await page.getByRole('heading', { name: 'What would be stored' }).waitFor()
 }
-/** A recording in the report. */
+/** Returns a recording in the report. */
 export const row = (name) => page.getByRole('row', { name: new RegExp(`Import ${name} `) })
-/** Until reports are as they were corrected. */
+/** Waits until reports match the corrections. */
 export const settled = () =>
-  page.waitForFunction(() => !/looking again/.test(document.querySelector('main').textContent) && !document.querySelector('.acts progress'))
+  page.waitForFunction(() => !/inspecting again/.test(document.querySelector('main').textContent) && !document.querySelector('.acts progress'))
 
-/** Files of a recording of the demo's first seconds, under another name; `change` may change the texts. */
+/** Writes files of a recording of the demo's first seconds, under another name; `change` may change the texts. */
 export function files(name, { seconds = 8, into = join(folder, 'files'), motion = true, change = (text) => text } = {}) {
   mkdirSync(into, { recursive: true })
   const corpus = join(folder, 'corpus')
@@ -43,7 +43,7 @@ export function files(name, { seconds = 8, into = join(folder, 'files'), motion 
   return [...(motion ? [join(into, `${name}.bvh`)] : []), join(into, `${name}.eaf`)]
 }
 
-/** Stores a recording as a program does; `called` is its name where it is not that of its files. */
+/** Stores a recording as a program does; `called` is its name if it differs from that of its files. */
 export async function store(name, { called, ...more } = {}) {
   const uploads = `${address}/api/databases/mine/uploads`
   const { upload } = await (await fetch(uploads, { method: 'POST' })).json()
@@ -63,7 +63,7 @@ export async function empty() {
   for (const { name } of await stored()) await fetch(`${address}/api/databases/mine/recordings/${encodeURIComponent(name)}`, { method: 'DELETE' })
 }
 
-/** What a checker finds on the page, and what is wider than the screen; `what` stands before it. */
+/** Returns accessibility faults, and elements wider than the screen; `what` is their prefix. */
 export async function faultsOf(what) {
   const wide = await page.evaluate(() =>
     document.scrollingElement.scrollWidth <= innerWidth && document.querySelector('main').scrollWidth <= innerWidth
@@ -74,7 +74,7 @@ export async function faultsOf(what) {
   )
   return [...(await axeFaults(page)).map((fault) => `${what}: ${fault}`), ...wide.map((element) => `${what} is wider than the screen: ${element}`)]
 }
-/** The ways in which everything must be accessible. */
+/** The configurations in which everything must be accessible. */
 export const kWays = [
   ['dark', 'en', 1280, 720],
   ['dark', 'en', 390, 844],

@@ -1,4 +1,4 @@
-// Ways in and back: a server that asks for a token, and what is not there.
+// Access and return: a server that requires a token, and missing pages.
 import assert from 'node:assert/strict'
 import { axeFaults } from './page_tools.mjs'
 import { withBrowser } from './chromium.mjs'
@@ -6,7 +6,7 @@ import { withServer } from './server.mjs'
 import { faults, page, plainTest, site, test, visit } from './suite.mjs'
 import { opened, until } from './waits.mjs'
 
-test('leads back from a recording that is not there, and to the one that was meant', async () => {
+test('leads back from a missing recording, and to a suggested one', async () => {
   await visit('#/demo/recording/metoe')
   await page.getByRole('alert').filter({ hasText: 'did you mean meteo?' }).waitFor()
   await page.getByRole('link', { name: 'meteo', exact: true }).click()
@@ -18,7 +18,7 @@ test('leads back from a recording that is not there, and to the one that was mea
 
 const kToken = 'a+token/of:this&test=1'
 
-plainTest('signs in with the token of the server, keeps it over a reload, and shows it nowhere', () =>
+plainTest('signs in with the server’s token, keeps it over a reload, and shows it nowhere', () =>
   withServer(
     site,
     (address) =>
@@ -32,23 +32,23 @@ plainTest('signs in with the token of the server, keeps it over a reload, and sh
           assert.deepEqual(await axeFaults(page), [])
           await field.fill('a token that is wrong')
           await page.keyboard.press('Enter')
-          await page.getByRole('alert').filter({ hasText: 'not the server’s token' }).waitFor()
+          await page.getByRole('alert').filter({ hasText: 'The server rejected this token' }).waitFor()
           await field.fill(kToken)
           await page.keyboard.press('Enter')
-          // What the address asks for is there, and knows the database.
+          // The page in the address is shown, and knows the database.
           await page.locator('#examples-title').waitFor()
           await until(async () => assert.match(await page.locator('section:has(#examples-title)').textContent(), /gloss = "/))
           await page.evaluate(() => (location.hash = '#/demo/compose?utterance=VANNES'))
           await page.waitForFunction(() => document.querySelector('.compose')?.dataset.made === 'VANNES')
           await page.reload()
           await page.waitForFunction(() => document.querySelector('.compose')?.dataset.made === 'VANNES')
-          // A live stream carries it, too.
+          // A live stream sends it, too.
           await page.getByRole('button', { name: 'Live', exact: true }).click()
-          await page.getByRole('combobox', { name: 'Type and it signs' }).waitFor()
+          await page.getByRole('combobox', { name: 'Type to sign' }).waitFor()
           await page.keyboard.type('MATIN ')
           await page.waitForFunction(() => document.querySelectorAll('.card').length === 2)
           assert.doesNotMatch(page.url(), /token/)
-          // Another tab is asked again; a link that carries the token loses it.
+          // Another tab asks again; a token in a link is removed from the address.
           const other = await context.newPage()
           await other.goto(`${address}/#/demo`)
           await other.getByLabel('Token').waitFor()

@@ -1,4 +1,4 @@
-// Files that are dropped on any page: they lead to the import, and no browser shows them in place of the studio.
+// Files dropped on any page: they lead to the import, and the browser never shows them in place of the studio.
 import assert from 'node:assert/strict'
 import { writeFileSync } from 'node:fs'
 import { join } from 'node:path'
@@ -10,8 +10,8 @@ import { context, faults, folder, mainTest, page, plainTest, site, test, visit }
 import { opened, until } from './waits.mjs'
 
 /**
- * A mouse that drags files of the disk, or a text, over a page, as from a desktop. Browsers report what is dragged several times a
- * second until it is dropped or leaves, and the studio takes a second without a report for the end: so this reports, too.
+ * A mouse that drags files of the disk, or a text, over a page, as from a desktop. Browsers report a drag several times a second until it is dropped or leaves,
+ * and the studio takes a second without a report as the end: so this reports, too.
  */
 const mouseOf = async (on, { paths = [], text, x = 640, y = 400 } = {}) => {
   const session = await on.context().newCDPSession(on)
@@ -26,7 +26,7 @@ const mouseOf = async (on, { paths = [], text, x = 640, y = 400 } = {}) => {
     over: async () => {
       await does('dragEnter')
       await does('dragOver')
-      // Until it ends, or the page closes under the mouse.
+      // Until it ends, or the page closes during the drag.
       reports = setInterval(() => does('dragOver').catch(() => clearInterval(reports)), 200)
     },
     drop: () => ends('drop'),
@@ -45,7 +45,7 @@ async function dropFiles(paths, on = page) {
   await gone(on)
 }
 
-mainTest('files that are dropped on the list of recordings are in the list of the import, with their folders', async () => {
+mainTest('files dropped on the list of recordings appear in the import, with their folders', async () => {
   await visit('#/mine')
   const week = join(folder, 'drop week')
   files('monday', { into: join(week, 'early'), seconds: 1 })
@@ -57,10 +57,10 @@ mainTest('files that are dropped on the list of recordings are in the list of th
   await page.getByText(/^Files: 4,/).waitFor()
   await gone()
   await until(async () => assert.deepEqual(await listed(), ['alone.bvh', 'alone.eaf', 'drop week/early/monday.bvh', 'drop week/early/monday.eaf']))
-  // The way back is the page that they were dropped on.
+  // Back leads to the page on which they were dropped.
   await page.goBack()
   await page.waitForFunction(() => location.hash === '#/mine')
-  // What comes later joins what is there.
+  // Later files are added to the existing ones.
   await dropFiles(files('more', { seconds: 1 }))
   await page.getByText(/^Files: 6,/).waitFor()
   assert.equal(context.pages().filter((one) => /\.(bvh|eaf)/.test(one.url())).length, 0)
@@ -76,12 +76,12 @@ for (const [hash, there] of [
   ['#/demo/guide', 'form'],
   ['#/demo/import', '.drop'],
 ]) {
-  test(`${hash} takes files that are dropped, once`, async () => {
+  test(`${hash} accepts dropped files, once`, async () => {
     await visit(hash, { still: true })
     if (there) await page.locator(there).first().waitFor()
     const mouse = await mouseOf(page, { paths: files('anywhere', { seconds: 1 }) })
     await mouse.over()
-    // The import has a target of its own.
+    // The import page has a target of its own.
     await page.locator(there === '.drop' ? '.drop.over' : '.over[popover]').waitFor()
     await mouse.drop()
     await page.waitForFunction(() => location.hash === '#/demo/import')
@@ -90,21 +90,21 @@ for (const [hash, there] of [
   })
 }
 
-test('composing keeps what is its own: a project is opened, and not imported', async () => {
+test('the compose page keeps its own drops: a project is opened, and not imported', async () => {
   await visit('#/demo/compose')
   await page.locator('.empty button').first().waitFor()
   const path = join(folder, 'x.signweave.json')
   writeFileSync(path, JSON.stringify({ format: 'signweave utterance', colour: 'red' }))
   const mouse = await mouseOf(page, { paths: [path] })
   await mouse.over()
-  await page.getByText('Let go to open the project').waitFor()
+  await page.getByText('Release to open the project').waitFor()
   assert.equal(await overlay().count(), 0)
   await mouse.drop()
   await page.getByText('x.signweave.json: ').waitFor()
   assert.match(page.url(), /#\/demo\/compose/)
 })
 
-test('a text that is dragged goes where it always went', async () => {
+test('dragged text is handled as usual', async () => {
   await visit('#/demo/search')
   const field = page.locator('.field textarea')
   await field.waitFor()
@@ -116,7 +116,7 @@ test('a text that is dragged goes where it always went', async () => {
   await until(async () => assert.match(await field.inputValue(), /VANNES/))
 })
 
-test('what is shown while files are dragged goes when they leave, and not while they go over things', async () => {
+test('the drop hint disappears when the files leave, and stays while they move over elements', async () => {
   await visit('#/mine')
   const mouse = await mouseOf(page, { paths: files('leaves', { seconds: 1 }) })
   await mouse.over()
@@ -133,31 +133,31 @@ test('what is shown while files are dragged goes when they leave, and not while 
   assert.match(page.url(), /#\/mine$/)
 })
 
-test('takes nothing while a window is open, and says so above it', async () => {
+test('rejects files while a dialog is open, and says so above it', async () => {
   await visit('#/mine')
   await page.keyboard.press('?')
   await page.getByRole('dialog').waitFor()
   await dropFiles(files('dialog', { seconds: 1 }))
-  await until(async () => assert.match(await line().textContent(), /Close the window that is open/))
+  await until(async () => assert.match(await line().textContent(), /Close the open dialog/))
   assert.match(page.url(), /#\/mine$/)
   await page.keyboard.press('Escape')
   await button('Close this message').click()
   await until(async () => assert.equal(await line().count(), 0))
 })
 
-test('takes nothing while an import is under way, and says so', async () => {
+test('rejects files during an import, and says so', async () => {
   await visit('#/mine/import')
   await page.locator('.drop').waitFor()
   await page.locator('input[type=file]:not([webkitdirectory])').setInputFiles(files('first', { seconds: 1 }))
   let free
   const held = new Promise((resolve) => (free = resolve))
   await page.route(/\/files\//, async (route) => (await held, await route.continue()))
-  await button('Send and look').click()
+  await button('Send and inspect').click()
   await page.locator('progress').first().waitFor()
   await page.evaluate(() => (location.hash = '#/mine/search'))
   await page.locator('.field textarea').waitFor()
   await dropFiles(files('second', { seconds: 1 }))
-  await until(async () => assert.match(await line().textContent(), /An import into mine is under way/))
+  await until(async () => assert.match(await line().textContent(), /An import into mine is in progress/))
   assert.match(page.url(), /#\/mine\/search/)
   free()
   await page.evaluate(() => (location.hash = '#/mine/import'))
@@ -166,7 +166,7 @@ test('takes nothing while an import is under way, and says so', async () => {
 })
 
 const kToken = 'a-token-of-this-test'
-plainTest('takes nothing where nobody has signed in, nor into what may only be read, and says so', () =>
+plainTest('rejects files without signing in and with read-only access, and says so', () =>
   withServer(
     site,
     (at, made) =>
@@ -178,18 +178,18 @@ plainTest('takes nothing where nobody has signed in, nor into what may only be r
           await on.goto(`${at}/#/demo`)
           await on.getByLabel('Token').waitFor()
           await dropFiles([path], on)
-          await until(async () => assert.match(await line(on).textContent(), /Sign in first/))
+          await until(async () => assert.match(await line(on).textContent(), /Sign in before/))
           await on.getByLabel('Token').fill(kToken)
           await on.keyboard.press('Enter')
           await on.getByRole('link', { name: 'meteo' }).waitFor()
           const mouse = await mouseOf(on, { paths: [path] })
           await mouse.over()
-          await until(async () => assert.match(await overlay(on).textContent(), /Files cannot be imported into demo: the server may only read it/))
+          await until(async () => assert.match(await overlay(on).textContent(), /Files cannot be imported into demo: the server has read-only access to it/))
           await mouse.drop()
-          await until(async () => assert.match(await line(on).textContent(), /the server may only read it/))
+          await until(async () => assert.match(await line(on).textContent(), /the server has read-only access to it/))
           await until(async () => assert.deepEqual(await axeFaults(on), []))
           assert.equal(on.url(), `${at}/#/demo`)
-          // On the page of the import, too.
+          // On the import page, too.
           await on.goto(`${at}/#/demo/import`)
           await opened(on, '#/demo/import')
           await dropFiles([path], on)

@@ -1,7 +1,7 @@
 import { mkdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs'
 import { join, resolve } from 'node:path'
 
-/** Where a test that fails leaves what it saw. */
+/** The folder for evidence of failed tests. */
 export const kFailures = resolve(process.env.SIGNWEAVE_FAILURES ?? join(import.meta.dirname, '../../../build/browser-failures'))
 
 const contexts = new Set()
@@ -12,7 +12,7 @@ let lines = []
 
 const note = (page, text) => lines.push(`${new Date().toISOString()} ${page.url()} ${text}`)
 
-/** Listens to every page of a browser from now on, until the function that it returns is called. */
+/** Records the console of every page of a browser until the returned function is called. */
 export function watchBrowser(context) {
   contexts.add(context)
   context.on('page', (page) => {
@@ -27,7 +27,7 @@ export function watchBrowser(context) {
   return () => contexts.delete(context)
 }
 
-/** Keeps the log of a server for the test that fails while it runs or after it, until the function that it returns is called when it has ended. */
+/** Saves the log of a server for the test that fails while it runs or after it; call the returned function when it has ended. */
 export function watchLog(path) {
   logs.add(path)
   return () => {
@@ -38,14 +38,14 @@ export function watchLog(path) {
 
 export const folderOf = (name) => join(kFailures, name.replace(/[^\p{L}\p{N}]+/gu, '-').slice(0, 100))
 
-/** Begins a test: what earlier ones left under its name goes. */
+/** Starts a test: evidence of earlier runs under its name is removed. */
 export function beginEvidence(name) {
   lines = []
   ended = []
   rmSync(folderOf(name), { recursive: true, force: true })
 }
 
-/** Leaves a picture and the text of every open page, what they wrote to their consoles, and the logs of the servers. */
+/** Saves a picture and the text of every open page, their console output, and the logs of the servers. */
 export async function leaveEvidence(name, fault) {
   const folder = folderOf(name)
   mkdirSync(folder, { recursive: true })
@@ -55,7 +55,7 @@ export async function leaveEvidence(name, fault) {
   said.forEach((log, i) => writeFileSync(join(folder, `server${i || ''}.log`), log))
   const pages = [...contexts].flatMap((context) => context.pages()).filter((page) => page.url() !== 'about:blank')
   for (const [i, page] of pages.entries()) {
-    // The page may be busy or gone: whatever can be had is left.
+    // The page may be busy or gone: whatever is available is saved.
     await page.screenshot({ path: join(folder, `page${i || ''}.png`), timeout: 30_000 }).catch((error) => note(page, `no picture: ${error.message}`))
     const text = page.content().then((html) => writeFileSync(join(folder, `page${i || ''}.html`), html))
     await inTime(text, 10).catch((error) => note(page, `no text: ${error.message}`))
@@ -63,7 +63,7 @@ export async function leaveEvidence(name, fault) {
   writeFileSync(join(folder, 'console.txt'), lines.map((line) => `${line}\n`).join(''))
 }
 
-/** What a promise gives, or an error where that takes longer than so many seconds. */
+/** Resolves like the promise, or with an error if that takes longer than the given seconds. */
 export async function inTime(promise, seconds) {
   let timer
   const late = new Promise((_, reject) => {

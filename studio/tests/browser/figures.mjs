@@ -1,4 +1,4 @@
-// How long the studio takes, figures.mjs SITE: nothing is asserted, as machines differ. Sizes are a test, sizes.test.mjs.
+// Measures the studio's speed, figures.mjs SITE: nothing is asserted, as machines differ. Sizes are a test, sizes.test.mjs.
 import { withBrowser } from './chromium.mjs'
 import { withServer } from './server.mjs'
 import { opened } from './waits.mjs'
@@ -6,7 +6,7 @@ import { opened } from './waits.mjs'
 const [site] = process.argv.slice(2)
 const kRecording = '#/demo/recording/meteo'
 
-/** Plays for four seconds: ms of the main thread a picture, and pictures a second. */
+/** Plays for four seconds: ms of the main thread per frame, and frames a second. */
 const played = (page) =>
   page.evaluate(async () => {
     const stage = window.signweaveStage
@@ -28,14 +28,14 @@ await withServer(
   async (address) => {
     const { characters } = await (await fetch(`${address}/api/characters`)).json()
     const first = async (label, hash, body, there) => {
-      // A browser of its own: nothing is in its caches.
+      // A separate browser, whose caches are empty.
       await withBrowser(async (context) => {
         await context.addInitScript((who) => localStorage.setItem('signweave.body', who), body)
         const page = await context.newPage()
         await page.goto('about:blank')
         await page.goto(`${address}/${hash}`)
         await page.waitForFunction(there, null, { polling: 'raf' })
-        console.log(`first view, ${label}: ${await page.evaluate(() => Math.round(performance.now()))} ms after the page was asked for`)
+        console.log(`first view, ${label}: ${await page.evaluate(() => Math.round(performance.now()))} ms after the page was requested`)
       })
     }
     await first('list of recordings', '#/demo', 'drawn', () => document.querySelector('tbody tr'))

@@ -1,4 +1,4 @@
-// The guided paths: what somebody does in the pages is noticed. Pages are told by their addresses and by what the server was asked.
+// The guided paths: the user's actions in the pages are detected from their addresses and from calls to the server.
 import assert from 'node:assert/strict'
 import { existsSync, readFileSync, readdirSync } from 'node:fs'
 import { join } from 'node:path'
@@ -12,7 +12,7 @@ const says = (text) => page.waitForFunction((wanted) => document.querySelector('
 const go = (hash) => page.evaluate((to) => (location.hash = to), hash)
 const forget = () => page.evaluate(() => localStorage.removeItem('signweave.guide'))
 
-test('goes along the demo: notices what was done, is left and taken up again', async () => {
+test('follows the demo path: notices finished steps, can be left and continued', async () => {
   await visit('#/demo/guide')
   await forget()
   await page.reload()
@@ -22,7 +22,7 @@ test('goes along the demo: notices what was done, is left and taken up again', a
   await opened(page, '#/demo/recording/meteo')
   await says('2/10 Play it slowly')
   await until(async () => assert.match(await panel().textContent(), /Done: Open a recording/))
-  // Nothing lies over what is worked on.
+  // Nothing covers the controls.
   const below = await page.evaluate(
     () => document.querySelector('[aria-label=Guide]').getBoundingClientRect().bottom <= document.querySelector('main').getBoundingClientRect().top + 0.5,
   )
@@ -32,16 +32,16 @@ test('goes along the demo: notices what was done, is left and taken up again', a
   await page.keyboard.press('Space')
   await page.evaluate(() => (window.signweaveStage.transport.seek(2), window.signweaveStage.touch()))
   await page.keyboard.press('g')
-  await says('4/10 Search a gloss')
+  await says('4/10 Search for a gloss')
   await until(async () => assert.match(await panel().textContent(), /gloss = "MATIN"/))
   await panel().getByRole('link', { name: 'Go there' }).click()
   await page.waitForFunction(() => location.hash === '#/demo/search')
   await go('#/demo/search?q=gloss+%3D+%22MATIN%22')
-  await says('5/10 Look at its tokens')
+  await says('5/10 View its tokens')
   await go('#/demo/search?q=gloss+%3D+%22MATIN%22&view=grid')
   await says('6/10 Compose a sentence')
 
-  // It outlives a reload, is left, and taken up where it was.
+  // It outlives a reload, can be left, and continues from the same step.
   await page.reload()
   await says('6/10 Compose a sentence')
   await button('Leave the guide').click()
@@ -49,13 +49,13 @@ test('goes along the demo: notices what was done, is left and taken up again', a
   await go('#/demo/guide')
   await page.getByText('Step 6 of 10').waitFor()
   await until(async () => assert.equal(await page.locator('li.done').count(), 5))
-  await page.getByRole('button', { name: /^Go on\s*I have only the demo/ }).click()
+  await page.getByRole('button', { name: /^Continue\s*I have only the demo/ }).click()
   await says('6/10 Compose a sentence')
-  await button('Step back').click()
-  await says('Done already')
+  await button('Previous step').click()
+  await says('Already done')
   await button('Next').click()
   await button('Skip').click()
-  await says('7/10 Take another token')
+  await says('7/10 Choose another token')
   await go('#/demo/compose?utterance=MATIN+PLUIE+VANNES')
   await page.waitForFunction(() => window.signweaveStage?.panes[0]?.seen)
   await page
@@ -78,22 +78,22 @@ test('goes along the demo: notices what was done, is left and taken up again', a
   await panel().getByRole('link', { name: 'Go there' }).click()
   await button('None').click()
   await page.getByRole('button', { name: 'Evaluate', exact: true }).click()
-  await says('That was all.')
+  await says('This was the last step.')
   await page
     .getByRole('button', { name: 'Cancel' })
     .click()
-    .catch(() => {}) // where it still runs
+    .catch(() => {}) // if it is still running
   await button('Leave the guide').click()
 })
 
-/** Real signing where it is there, which is not everywhere; else some of the demo's, so that the path is gone in any case. */
+/** Real signing if available, which is not everywhere; otherwise some of the demo's, so that the path is tested in any case. */
 const folderOf = () => {
   if (existsSync(kThanks)) return { paths: readdirSync(kThanks).map((file) => join(kThanks, file)), first: 'ISL Thanks', gloss: 'THANKS', count: 3 }
-  console.log('not run: no shared data (the guide is gone with recordings of the demo)')
+  console.log('not run: no shared data (the guide runs with recordings of the demo)')
   return { paths: [...files('thanks', { seconds: 51 }), ...files('others', { seconds: 51 })], first: 'thanks', gloss: 'MATIN', count: 2 }
 }
 
-test('goes the path of a folder of EAF and BVH, from an empty database to a file', async () => {
+test('follows the path of a folder of EAF and BVH, from an empty database to a file', async () => {
   await visit('#/mine/guide')
   await empty()
   await forget()
@@ -104,25 +104,25 @@ test('goes the path of a folder of EAF and BVH, from an empty database to a file
   await until(async () => assert.equal(await page.getByRole('link', { name: 'Import recordings' }).getAttribute('href'), '#/mine/import'))
   await page.getByRole('button', { name: /^Begin\s*I have a folder/ }).click()
   await page.waitForFunction(() => location.hash === '#/mine/import')
-  await says('1/10 Bring your files')
+  await says('1/10 Add your files')
   const { paths, first, gloss, count } = folderOf(),
     real = first === 'ISL Thanks'
   await page.locator('input[type=file]:not([webkitdirectory])').setInputFiles(paths)
-  await button('Send and look').click()
+  await button('Send and inspect').click()
   await says('2/10 Check the report')
   await page.getByRole('heading', { name: 'What would be stored' }).waitFor()
   await panel().getByRole('button', { name: 'Done' }).click()
   await says('3/10 Correct a guess')
-  if (real) await page.getByRole('button', { name: /^Mend all \d that have it$/ }).click()
+  if (real) await page.getByRole('button', { name: /^Fix all \d with this notice$/ }).click()
   else await panel().getByRole('button', { name: 'Skip' }).click()
   await says('4/10 Store them')
-  await page.waitForFunction(() => !/looking again/.test(document.querySelector('main').textContent))
+  await page.waitForFunction(() => !/inspecting again/.test(document.querySelector('main').textContent))
   await button(`Import ${count}`).click()
   await says('5/10 Open one')
   await panel().getByRole('link', { name: 'Go there' }).click()
   await page.getByTitle(`Open ${first}`).click()
   await opened(page, `#/mine/recording/${encodeURIComponent(first)}`)
-  // What is real is not called a placeholder because the demo is served, too.
+  // Real recordings are not marked as placeholders because the demo is served, too.
   if (real) await until(async () => assert.equal(await page.getByText('placeholder').count(), 0))
   await says('6/10 Find a sign')
   await panel().getByRole('link', { name: 'Go there' }).click()
@@ -140,7 +140,7 @@ test('goes the path of a folder of EAF and BVH, from an empty database to a file
   await button('Save…').click()
   await button('Store in the database…').click()
   await button('Store in the database').click()
-  await says('9/10 Compose from it')
+  await says('9/10 Compose with it')
   await page.getByText('Stored: annotation replaced').waitFor()
   await button('Close').click()
   await until(async () => assert.match(await annotation(first), /Phase RH \(checked\)/))
@@ -151,7 +151,7 @@ test('goes the path of a folder of EAF and BVH, from an empty database to a file
   await button('Download').click()
   const [file] = await Promise.all([page.waitForEvent('download'), page.locator('.list').getByRole('button', { name: /^BVH/ }).click()])
   await until(async () => assert.match(readFileSync(await file.path(), 'utf8'), /^HIERARCHY/))
-  await says('That was all.')
+  await says('This was the last step.')
   await forget()
   await empty()
 })
@@ -177,7 +177,7 @@ for (const [theme, language] of [
       await page.locator('form button.primary').first().click()
       await page.waitForSelector('.guide section')
       await page.waitForSelector('main table')
-      await look('strip')
+      await look('panel')
       const height = await page.evaluate(() => document.querySelector('.guide').getBoundingClientRect().height)
       assert.ok(height < (size.width > 640 ? 60 : 110), `${height} pixels`)
       await page.evaluate(() => ['theme', 'language', 'guide'].forEach((key) => localStorage.removeItem(`signweave.${key}`)))

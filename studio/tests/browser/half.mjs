@@ -2,7 +2,7 @@
 import assert from 'node:assert/strict'
 import { begin, faults, plainTest } from './suite.mjs'
 
-// Where the process that started this one is interrupted; it is not waited for.
+// When the parent process is interrupted, it does not wait for this one.
 process.once('disconnect', () => process.exit(1))
 process.channel.unref()
 
@@ -10,6 +10,6 @@ for (const name of process.argv.slice(2)) {
   begin(name)
   await import(`./${name}.test.mjs`)
 }
-// The other process has a test of its own of this kind.
+// The other process has its own test of this kind.
 begin('pages')
 plainTest(`no view threw anything in ${process.argv.slice(2).join(', ')}`, () => assert.deepEqual(faults, []))

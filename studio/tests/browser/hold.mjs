@@ -1,7 +1,4 @@
-/**
- * Keeps open what `run(work)` has open while `work` runs: `given` resolves with what `work` was called with, or rejects where it could not be opened;
- * `end()` lets it go.
- */
+/** Keeps open what `run(work)` opens for `work`: `given` resolves with the argument of `work`, or rejects if opening failed; `end()` releases it. */
 export function hold(run) {
   let release, whole
   let isOpen = false

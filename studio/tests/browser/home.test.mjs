@@ -1,4 +1,4 @@
-// The start, and what is shown where nothing is yet.
+// The start page, and the pages of an empty database.
 import assert from 'node:assert/strict'
 import { asBefore, empty, faultsOf, files, kWays, store } from './corpus_tools.mjs'
 import { kDeclared, mainTest, page, test, visit } from './suite.mjs'
@@ -6,20 +6,20 @@ import { until } from './waits.mjs'
 
 const link = (name) => page.getByRole('link', { name, exact: true })
 const at = (hash) => page.waitForFunction((wanted) => location.hash === wanted, hash)
-/** The server tells other databases than it has. */
+/** Mocks the list of databases. */
 const serving = (databases) => page.route(/\/api\/databases$/, (route) => route.fulfill({ json: { databases } }))
 const row = (name, more = {}) => ({ name, recordings: 3, writable: false, declarations: {}, ...more })
 const card = (name) => page.getByRole('article').filter({ has: page.getByRole('heading', { name }) })
 
-mainTest('the start says what this is, and leads to the demo, to one’s own files and to the first steps', async () => {
+mainTest('the start page says what this is, and leads to the demo, to one’s own files and to the first steps', async () => {
   await visit('')
-  await page.getByRole('heading', { level: 2, name: 'Captured signing, kept as motion and as meaning' }).waitFor()
+  await page.getByRole('heading', { level: 2, name: 'Captured signing, stored as motion and as meaning' }).waitFor()
   await until(async () => assert.match(await page.locator('main').textContent(), /does not translate/))
-  await until(async () => assert.match(await card('Look at the demo').textContent(), kDeclared))
+  await until(async () => assert.match(await card('Explore the demo').textContent(), kDeclared))
   assert.equal(await page.title(), 'signweave studio')
   for (const [name, hash, there] of [
     ['Open demo', '#/demo', 'tbody tr'],
-    ['Compose from it', '#/demo/compose', '.compose'],
+    ['Compose with it', '#/demo/compose', '.compose'],
     ['Import into mine', '#/mine/import', '.drop'],
     ['First steps', '#/demo/guide', 'form'],
     ['mine', '#/mine', '.empty, tbody tr'],
@@ -27,27 +27,27 @@ mainTest('the start says what this is, and leads to the demo, to one’s own fil
     await page.locator('main').getByRole('link', { name, exact: true }).click()
     await at(hash)
     await page.locator(there).first().waitFor()
-    // From everywhere the name of the program leads back.
+    // The program's name leads back from every page.
     await page.getByRole('banner').getByRole('link', { name: 'signweave' }).click()
     await at('#/')
     await page.locator('#home-title').waitFor()
   }
 })
 
-test('the start counts the recordings of every database anew', async () => {
+test('the start page updates the number of recordings of every database', async () => {
   await empty()
   await visit('#/')
   const listed = () => page.getByRole('region', { name: 'Databases here' }).getByRole('listitem').allTextContents()
-  await until(async () => assert.match((await listed()).join('\n'), /demo\s*2 recordings\s*may be changed.*not LSF\s*\n\s*mine\s*empty/))
+  await until(async () => assert.match((await listed()).join('\n'), /demo\s*2 recordings\s*writable.*not LSF\s*\n\s*mine\s*empty/))
   await link('mine').click()
   await page.getByText('Nothing here yet').waitFor()
   await store('counted', { seconds: 1 })
   await page.goBack()
-  await until(async () => assert.match((await listed()).join('\n'), /mine\s*1 recording\s*may be changed/))
+  await until(async () => assert.match((await listed()).join('\n'), /mine\s*1 recording\s*writable/))
   await empty()
 })
 
-test('takes files on the start into a database that is no demo', async () => {
+test('imports files dropped on the start page into a database that is not a demo', async () => {
   await visit('')
   await page.locator('#home-title').waitFor()
   const mouse = await page.context().newCDPSession(page)
@@ -57,7 +57,7 @@ test('takes files on the start into a database that is no demo', async () => {
   await page.getByText(/^Files: 2,/).waitFor()
 })
 
-test('the start is told from an address that names what is not there', async () => {
+test('the start page can be reached from an address of something missing', async () => {
   await visit('#/nowhere')
   await page.getByRole('alert').waitFor()
   await link('Start').click()
@@ -65,7 +65,7 @@ test('the start is told from an address that names what is not there', async () 
   await page.locator('#home-title').waitFor()
 })
 
-test('says how to make a database where there is none, and how to change one where all are only read', async () => {
+test('explains how to create a database if there is none, and how to serve a writable one', async () => {
   await visit('#/demo')
   await serving([])
   await page.evaluate(() => (location.hash = '#/'))
@@ -75,13 +75,13 @@ test('says how to make a database where there is none, and how to change one whe
   await page.unroute(/\/api\/databases$/)
   await serving([row('corpus')])
   await page.reload()
-  await until(async () => assert.match(await card('Use your own files').textContent(), /may only read its databases.*--writable/s))
-  // No demo is served, so that none is offered; of one database the pages are in the header.
-  assert.equal(await card('Look at the demo').count(), 0)
+  await until(async () => assert.match(await card('Use your own files').textContent(), /read-only access to its databases.*--writable/s))
+  // No demo is served, so none is offered; with a single database its pages are in the header.
+  assert.equal(await card('Explore the demo').count(), 0)
   assert.equal(await link('Search').getAttribute('href'), '#/corpus/search')
 })
 
-test('an empty database takes files, by hand or by program', async () => {
+test('an empty database accepts files, by hand or from the command line', async () => {
   await empty()
   await visit('#/mine')
   await page.getByText('Nothing here yet').waitFor()
@@ -90,16 +90,16 @@ test('an empty database takes files, by hand or by program', async () => {
   await until(async () => assert.equal(await page.locator('.empty pre').textContent(), 'signweave import mine.db FOLDER'))
   await link('Import').click()
   await at('#/mine/import')
-  // One that may only be read has no button that would be refused.
+  // A read-only database has no buttons that would be refused.
   await page.evaluate(() => (location.hash = '#/mine/search'))
   await serving([row('demo'), row('mine', { recordings: 0 })])
   await page.evaluate(() => (location.hash = '#/mine'))
-  await page.getByText('The server may only read mine').waitFor()
+  await page.getByText('The server has read-only access to mine').waitFor()
   assert.equal(await link('Import').count(), 0)
 })
 
 for (const { name, size, set } of kWays) {
-  test(`an accessibility checker finds nothing on the start and in an empty database, ${name}`, async () => {
+  test(`an accessibility checker finds nothing on the start page and in an empty database, ${name}`, async () => {
     if (!page) await visit('')
     await set()
     const found = []
@@ -109,7 +109,7 @@ for (const { name, size, set } of kWays) {
     await visit('#/mine', { size })
     await page.locator('.empty').waitFor()
     found.push(...(await faultsOf('empty')))
-    // The way to the start is on every page to be seen, also on a phone.
+    // The link to the start page is visible on every page, also on a phone.
     const box = await page.locator('header h1 img').boundingBox()
     assert.ok(box.width >= 20 && box.x >= 0 && (await page.locator('.app > .head').boundingBox()).height < 60)
     await asBefore()

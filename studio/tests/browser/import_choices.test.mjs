@@ -1,4 +1,4 @@
-// What somebody says of files before they are stored: what does not belong to a recording, and what it is not.
+// Choices about files before they are stored: which do not belong to a recording, and which parts to leave out.
 import assert from 'node:assert/strict'
 import { copyFileSync } from 'node:fs'
 import { join } from 'node:path'
@@ -8,7 +8,7 @@ import { until } from './waits.mjs'
 
 const article = () => page.locator('article').textContent()
 const shown = () => page.locator('.report .name').allTextContents()
-/** The names of files that go to the server, and that are taken back from it, from now on. */
+/** Records the names of files sent to the server and removed from it from now on. */
 function requests() {
   const all = { sent: [], back: [] }
   page.on('request', (request) => {
@@ -19,7 +19,7 @@ function requests() {
   return all
 }
 
-test('takes a face and an annotation away from a recording, by mouse and by keyboard', async () => {
+test('removes a face and an annotation from a recording, by mouse and by keyboard', async () => {
   await begin()
   const face = join(folder, 'files', 'walk.face.csv')
   const walk = files('walk', { seconds: 2 })
@@ -27,23 +27,23 @@ test('takes a face and an annotation away from a recording, by mouse and by keyb
   await choose([...walk, face])
   await look()
   await until(async () => assert.match(await article(), /Face tracks\s*22/))
-  await button('Take away: Face capture').click()
+  await button('Remove: Face capture').click()
   await page.getByText('In no recording, and not stored: walk.face.csv').waitFor()
   await settled()
   await until(async () => assert.doesNotMatch(await article(), /Face tracks/))
   await until(async () => assert.equal(await page.getByLabel('Face capture', { exact: true }).inputValue(), ''))
   await until(async () => assert.ok(await page.getByLabel('Face capture', { exact: true }).evaluate((element) => element === document.activeElement)))
-  await until(async () => assert.ok(await button('Take away: Face capture').isDisabled()))
+  await until(async () => assert.ok(await button('Remove: Face capture').isDisabled()))
   // By keyboard: the face again, and no annotation.
   await page.keyboard.press('w')
   await settled()
   await until(async () => assert.match(await article(), /Face tracks\s*22/))
-  await button('Take away: Annotation').focus()
+  await button('Remove: Annotation').focus()
   await page.keyboard.press('Enter')
   await page.getByText('In no recording, and not stored: walk.eaf').waitFor()
   await settled()
   await until(async () => assert.match(await article(), /motion without annotation/))
-  await button('Take away: Face capture').focus()
+  await button('Remove: Face capture').focus()
   await page.keyboard.press('Enter')
   await settled()
   await page.getByRole('button', { name: /^Import 1$/ }).click()
@@ -52,30 +52,30 @@ test('takes a face and an annotation away from a recording, by mouse and by keyb
   assert.deepEqual([one.motion_file, one.annotation_file || '', one.face_file || '', one.tracks?.length ?? 0], ['walk.bvh', '', '', 0])
 })
 
-test('says that no tier holds phases, or signs, of one recording and of all', async () => {
+test('specifies that no tier contains phases, or signs, for one recording and for all', async () => {
   await begin()
   await choose([...files('one', { seconds: 2 }), ...files('two', { seconds: 2 })])
   await look()
   await row('one').click()
   await until(async () => assert.match(await article(), /Phases\s*108/))
-  await button('No phase tier: none is guessed').click()
+  await button('No phase tier (do not guess)').click()
   await settled()
-  // A sign of which no phases are told is one.
+  // A sign without annotated phases is a single phase.
   await until(async () => assert.match(await article(), /Signs\s*36.*Phases\s*36/))
-  await until(async () => assert.equal(await page.getByLabel('Taken as: Phase').inputValue(), ''))
+  await until(async () => assert.equal(await page.getByLabel('Used as: Phase').inputValue(), ''))
   await until(async () => assert.doesNotMatch(await article(), /phase tier 'Phase' guessed/))
   // By keyboard, no signs either.
-  await page.getByLabel('Taken as: Gloss').focus()
+  await page.getByLabel('Used as: Gloss').focus()
   await page.keyboard.press('End')
   await settled()
   await until(async () => assert.match(await article(), /Signs\s*0/))
-  await until(async () => assert.ok(await button('No sign tier: none is guessed').isDisabled()))
-  await button('As the server tells it').click()
+  await until(async () => assert.ok(await button('No sign tier (do not guess)').isDisabled()))
+  await button('Reset to the server’s guess').click()
   await settled()
   await until(async () => assert.match(await article(), /Signs\s*36.*Phases\s*108/))
   // For all of them.
   await page.getByText('Corrections for all recordings').click()
-  await page.getByRole('checkbox', { name: 'No phase tier: none is guessed' }).focus()
+  await page.getByRole('checkbox', { name: 'No phase tier (do not guess)' }).focus()
   await page.keyboard.press('Space')
   await settled()
   for (const name of ['one', 'two']) {
@@ -88,7 +88,7 @@ test('says that no tier holds phases, or signs, of one recording and of all', as
   assert.deepEqual(found, [])
 })
 
-test('takes one file out before the import, without sending or looking at the others again', async () => {
+test('removes one file before the import, without sending or inspecting the others again', async () => {
   await begin()
   await choose([...files('first', { seconds: 1 }), ...files('second', { seconds: 1 }), ...files('third', { seconds: 1 })])
   await look()
@@ -99,7 +99,7 @@ test('takes one file out before the import, without sending or looking at the ot
   await row('second').click()
   await until(async () => assert.match(await article(), /motion without annotation/))
   assert.deepEqual([back, sent.filter((name) => name !== 'pairs.csv')], [['second.eaf'], []])
-  // By keyboard: the motion of the first, whose annotation is then a recording alone, and all of the third.
+  // By keyboard: the motion of the first, whose annotation then becomes a recording of its own, and all of the third.
   const list = page.getByRole('grid', { name: 'Files' })
   const marked = () => page.locator('.list [aria-selected=true] > :first-child').first().textContent()
   const at = async (name) => {
@@ -115,7 +115,7 @@ test('takes one file out before the import, without sending or looking at the ot
   await settled()
   await until(async () => assert.deepEqual(await shown(), ['first', 'second']))
   await row('first').click()
-  await until(async () => assert.match(await article(), /it can be searched, not signed/))
+  await until(async () => assert.match(await article(), /it can be searched, but not signed/))
   await page.getByRole('button', { name: /^Import 2$/ }).click()
   await page.getByText('Stored: 2').waitFor()
   assert.deepEqual(back.toSorted(), ['first.bvh', 'second.eaf', 'third.bvh', 'third.eaf'])
@@ -129,7 +129,7 @@ test('takes one file out before the import, without sending or looking at the ot
   await until(async () => assert.ok((await stored()).every(({ name }) => name !== 'third')))
 })
 
-test('stores checked phases of a recording whose name has a folder in it', async () => {
+test('stores checked phases of a recording whose name contains a folder', async () => {
   const name = 'day 1/walk, far'
   await store('walk', { seconds: 3, called: name })
   const before = (await stored()).map((one) => one.name)

@@ -1,4 +1,4 @@
-// The report of an import shows how a recording moves, before and after what is corrected.
+// The report of an import shows a recording's motion, before and after corrections.
 import assert from 'node:assert/strict'
 import { mkdirSync, writeFileSync } from 'node:fs'
 import { join } from 'node:path'
@@ -6,7 +6,7 @@ import { begin, button, choose, files, look, row, stored } from './corpus_tools.
 import { folder, mainTest, page, test, visit } from './suite.mjs'
 import { frames, until } from './waits.mjs'
 
-/** What the figures say that are drawn, from the left. */
+/** Returns the labels of the figures drawn, from the left. */
 const drawn = () =>
   page
     .locator('article canvas[data-seconds]')
@@ -14,14 +14,14 @@ const drawn = () =>
 const shown = (count) => page.locator(`section[data-shown="${count}"]`).waitFor()
 const titles = () => page.locator('article figcaption').allTextContents()
 const toPreview = () => page.locator('#preview-title').evaluate((title) => title.scrollIntoView())
-/** What previews are asked for from now on. */
+/** Records preview requests from now on. */
 function asked() {
   const all = []
   page.on('request', (request) => /\/preview$/.test(request.url()) && all.push(JSON.parse(request.postData())))
   return all
 }
 
-/** A person as bones of the CMU's names: from which bone, which way (x to the left, y to the back, z up), how many metres. */
+/** A person as bones with the CMU's names: parent, direction (x to the left, y to the back, z up), length in metres. */
 const kBones = [
   ['lowerback', 'root', [0, 0, 1], 0.12],
   ['upperback', 'lowerback', [0, 0, 1], 0.12],
@@ -45,7 +45,7 @@ const kBones = [
   ]),
 ]
 const lines = (...all) => all.map((line) => `${line}\n`).join('')
-/** ASF and AMC with the vertical axis z, which the formats do not tell: two seconds in which an arm is raised. */
+/** ASF and AMC with a vertical z axis, which the formats do not specify: two seconds in which an arm is raised. */
 function zUp(name) {
   const bones = kBones.map(([bone, , way, length], id) =>
     lines(
@@ -74,7 +74,7 @@ function zUp(name) {
   writeFileSync(join(into, `${name}.amc`), `:FULLY-SPECIFIED\n:DEGREES\n${moments.join('')}`)
   return [join(into, `${name}.asf`), join(into, `${name}.amc`)]
 }
-/** A BVH file whose root has its rotation where its position should be, and in the place of the rotation its offset. */
+/** A BVH file whose root has its rotation in place of its position, and its offset in place of the rotation. */
 function permuted(text) {
   const offset = /ROOT[^]*?OFFSET\s+(.*)/.exec(text)[1].trim().split(/\s+/)
   const [head, rest] = text.split(/^(?=Frames:)/m)
@@ -87,7 +87,7 @@ function permuted(text) {
   return `${head}${[count, time, ...swapped].join('\n')}\n`
 }
 
-mainTest('shows a figure that lies, and beside it how it stands as corrected', async () => {
+mainTest('shows a lying figure, and next to it the corrected one', async () => {
   await begin()
   await choose(zUp('walk'))
   await look()
@@ -102,21 +102,21 @@ mainTest('shows a figure that lies, and beside it how it stands as corrected', a
     const [before, after] = await drawn()
     assert.ok(Math.abs(before.rise) < 0.1 && before.height < 0.7, JSON.stringify(before))
     assert.ok(after.rise > 0.95 && after.height > 1.5 && after.height < 2, JSON.stringify(after))
-    assert.ok(after.sides > 0.1, 'what is left is on the right of who looks')
+    assert.ok(after.sides > 0.1, 'the body’s left is on the viewer’s right')
   })
   await until(async () => assert.deepEqual(await titles(), ['Without corrections', 'With the corrections']))
-  await until(async () => assert.match(await label().nth(1).getAttribute('aria-label'), /1\.\d+ m high, upright, 120 frames a second/))
-  // Nothing is stored by looking.
+  await until(async () => assert.match(await label().nth(1).getAttribute('aria-label'), /1\.\d+ m high, upright, 120 frames per second/))
+  // Previewing stores nothing.
   assert.deepEqual(
     (await stored()).map(({ name }) => name).filter((name) => name === 'walk'),
     [],
   )
-  // What cannot be read so is said where it would be seen, and the other stays.
+  // A file that cannot be read with a correction shows the fault in its place, and the other preview stays.
   await page.locator('#one-source_rate').fill('0')
   await page.keyboard.press('Tab')
   await page.locator('article .panes').getByRole('alert').getByText('source_rate').waitFor()
   await until(async () => assert.deepEqual(await titles(), ['Without corrections']))
-  // Half as many frames a second: it is half as fast.
+  // Half as many frames per second: half the speed.
   await page.locator('#one-source_rate').fill('30')
   await page.keyboard.press('Tab')
   await shown(2)
@@ -126,7 +126,7 @@ mainTest('shows a figure that lies, and beside it how it stands as corrected', a
   })
 })
 
-test('shows a figure that is a hundred times too large, and one that is mirrored', async () => {
+test('shows a figure that is a hundred times too large, and a mirrored one', async () => {
   await begin()
   await choose(files('large', { seconds: 6 }))
   await look()
@@ -146,12 +146,12 @@ test('shows a figure that is a hundred times too large, and one that is mirrored
   await until(async () => {
     const [before, after] = await drawn()
     assert.ok(Math.abs(after.height - before.height) < 0.01)
-    // The body is the same, and what it calls its left is on the other side of it.
+    // The body is the same, and its parts named left are on the other side.
     assert.ok(before.sides > 0.05 && Math.abs(after.sides + before.sides) < 0.02, JSON.stringify([before, after]))
   })
 })
 
-test('plays both in step, and not where somebody paused it or wants no motion', async () => {
+test('plays both synchronized, unless paused or with reduced motion', async () => {
   await begin()
   await choose(files('steps', { seconds: 6 }))
   await look()
@@ -169,7 +169,7 @@ test('plays both in step, and not where somebody paused it or wants no motion', 
   assert.equal(left, right)
   await frames(page)
   assert.deepEqual(await times(), [left, right])
-  // Another view is drawn at once, of the same moment.
+  // Another view is drawn at once, at the same moment.
   const picture = () =>
     page
       .locator('article canvas')
@@ -181,7 +181,7 @@ test('plays both in step, and not where somebody paused it or wants no motion', 
   assert.deepEqual(await times(), [left, right])
   await button('Play').click()
   await moves()
-  // Out of sight it stands still.
+  // Off screen it is paused.
   await page.locator('h2').first().scrollIntoViewIfNeeded()
   await page.setViewportSize({ width: 1280, height: 300 })
   await until(async () => {
@@ -191,7 +191,7 @@ test('plays both in step, and not where somebody paused it or wants no motion', 
   })
 })
 
-test('does not play by itself for who wants less motion', async () => {
+test('does not play automatically with reduced motion', async () => {
   await visit('#/mine/import', { still: true })
   await page.locator('.drop').waitFor()
   await choose(files('calm', { seconds: 6 }))
@@ -205,23 +205,23 @@ test('does not play by itself for who wants less motion', async () => {
   await until(async () => assert.ok((await drawn())[0].seconds > 0))
 })
 
-test('shows what a mend would do to whoever points at it', async () => {
+test('shows the effect of a fix when pointing at it', async () => {
   await begin()
   await choose(files('turned', { seconds: 2, change: (text) => (text.startsWith('HIERARCHY') ? permuted(text) : text) }))
   await look()
   await toPreview()
   await shown(1)
   const calls = asked()
-  await page.getByText('Point at “Mend it”').waitFor()
-  const mend = page.locator('article').getByRole('button', { name: /^Mend it/ })
+  await page.getByText('Point at “Fix”').waitFor()
+  const mend = page.locator('article').getByRole('button', { name: /^Fix: / })
   await mend.hover()
   await shown(2)
   await until(async () => assert.deepEqual(await titles(), ['Without corrections', 'With rotation_first, m']))
   assert.deepEqual(calls, [{ file: 'turned.bvh', root_order: 'rotation_first', root_unit: 'm' }])
   await page.locator('#preview-title').hover()
-  await page.getByText('Point at “Mend it”').waitFor()
+  await page.getByText('Point at “Fix”').waitFor()
   await until(async () => assert.deepEqual(await titles(), ['Without corrections']))
-  // By keyboard; what was seen is not asked for again.
+  // By keyboard; a preview already loaded is not requested again.
   await mend.focus()
   await shown(2)
   await page.keyboard.press('Enter')
@@ -229,7 +229,7 @@ test('shows what a mend would do to whoever points at it', async () => {
   assert.equal(calls.length, 1)
 })
 
-test('asks for a preview only where it is seen', async () => {
+test('requests a preview only when it is visible', async () => {
   await begin()
   await page.setViewportSize({ width: 390, height: 500 })
   const calls = asked()
@@ -244,7 +244,7 @@ test('asks for a preview only where it is seen', async () => {
   assert.deepEqual(calls, [{ file: 'two.bvh' }])
 })
 
-test('asks again for what did not come', async () => {
+test('requests a failed preview again', async () => {
   await begin()
   await page.route('**/preview', (route) => route.fulfill({ status: 503, json: { error: { code: 'busy', message: 'too much is going on' } } }))
   await choose(files('again', { seconds: 1 }))

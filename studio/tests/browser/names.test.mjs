@@ -1,4 +1,4 @@
-// Names that are longer than their place: what tells them from each other is at their end, and stays.
+// Names that are too long for their space: their distinctive end stays visible.
 import assert from 'node:assert/strict'
 import { faultsOf } from './corpus_tools.mjs'
 import { context, page, test, visit } from './suite.mjs'
@@ -7,7 +7,7 @@ import { until } from './waits.mjs'
 const kPhone = { width: 390, height: 844 }
 const names = Array.from({ length: 20 }, (_, k) => `bulletin-meteo-${k + 1}`)
 
-/** Of every name that is shown: its text, what is drawn as its begin and end, and whether the end has room and the begin is cut. */
+/** Returns for every name shown: its text, the begin and end that are drawn, and whether the end fits and the begin is cut. */
 const shown = (within) =>
   page.locator(`${within} .shown-name`).evaluateAll((all) =>
     all.map((one) => {
@@ -24,7 +24,7 @@ const shown = (within) =>
       }
     }),
   )
-/** The server tells many recordings, all like the first. */
+/** The server lists many recordings, all like the first. */
 const manyRecordings = () =>
   page.route(/\/api\/databases\/demo$/, async (route) => {
     const answer = await (await route.fetch()).json()
@@ -40,7 +40,7 @@ test('the list of recordings keeps the ends of names on a phone', async () => {
   assert.ok(rows.length >= 10)
   for (const row of rows.filter(({ text }) => text.length > 15))
     assert.deepEqual(row, { text: row.text, end: row.text.slice(9), whole: true, cut: true, fits: true })
-  // The whole name is what is heard, found and copied.
+  // The whole name is used by screen readers, for searching and for copying.
   const one = page.getByRole('link', { name: 'bulletin-meteo-12', exact: true })
   assert.equal(await one.count(), 1)
   const session = await context.newCDPSession(page)
@@ -52,12 +52,12 @@ test('the list of recordings keeps the ends of names on a phone', async () => {
   })
   assert.equal(copied, 'bulletin-meteo-12')
   assert.deepEqual(await faultsOf('names'), [])
-  // Where there is room nothing is cut.
+  // With enough room nothing is cut.
   await page.setViewportSize({ width: 1280, height: 720 })
   await until(async () => assert.ok((await shown('tbody')).every(({ cut }) => !cut)))
 })
 
-test('answers of a search keep the ends of names on a phone, as a table and side by side', async () => {
+test('answers of a search keep the ends of names on a phone, as a table and as a grid', async () => {
   await visit('#/mine', { size: kPhone })
   await page.route(/\/query$/, async (route) => {
     const answer = await route.fetch()

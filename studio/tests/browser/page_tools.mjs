@@ -3,7 +3,7 @@ import { createRequire } from 'node:module'
 
 const kAxe = readFileSync(createRequire(import.meta.url).resolve('axe-core/axe.min.js'), 'utf8')
 
-/** What the browser tests ask of a page; `window.signweaveStage` is the stage that draws. */
+/** Helpers that inspect a page; `window.signweaveStage` is the stage that draws. */
 
 export const transport = (page) =>
   page.evaluate(() => {
@@ -13,7 +13,7 @@ export const transport = (page) =>
 
 export const azimuth = (page) => page.evaluate(() => window.signweaveStage.panes[0].camera.azimuth)
 
-/** The colour on the screen where a joint of the first signer is, as [red, green, blue]. */
+/** Returns the colour on the screen at a joint of the first signer, as [red, green, blue]. */
 export async function colorAtJoint(page, joint, pane = 0) {
   const place = await page.evaluate(
     ([name, index]) => {
@@ -44,14 +44,14 @@ export async function colorAtJoint(page, joint, pane = 0) {
 /** Whether a colour is that of bare skin as the studio draws it, in light or shade. */
 export const isSkin = ([red, green, blue]) => red > 60 && red > green * 1.12 && green > blue * 0.95
 
-/** Faults that axe finds, one line each. */
+/** Returns the faults that axe finds, one line each. */
 export async function axeFaults(page) {
   await page.evaluate(kAxe)
   const found = await page.evaluate(() => window.axe.run(document, { runOnly: ['wcag2a', 'wcag2aa', 'wcag21a', 'wcag21aa', 'wcag22aa', 'best-practice'] }))
   return found.violations.map(({ id, nodes }) => `${id}: ${nodes.map(({ target, failureSummary }) => `${target} ${failureSummary}`).join(' | ')}`)
 }
 
-/** A second of video of a bar that moves, as bytes of WebM, made by the browser itself. */
+/** Returns a second of video of a moving bar, as bytes of WebM, recorded by the browser itself. */
 export async function smallVideo(page) {
   const base64 = await page.evaluate(async () => {
     const canvas = Object.assign(document.createElement('canvas'), { width: 64, height: 48 }),
@@ -75,7 +75,7 @@ export async function smallVideo(page) {
   return Buffer.from(base64, 'base64')
 }
 
-/** Tells how many ms a page's main thread has computed so far, however long it waited for a processor. */
+/** Returns the ms that a page's main thread has computed so far, excluding waits for a processor. */
 export async function computedBy(page) {
   const session = await page.context().newCDPSession(page)
   await session.send('Performance.enable', { timeDomain: 'threadTicks' })

@@ -15,10 +15,10 @@ const progress = () => page.locator('.progress strong').textContent()
 const press = async (...keys) => {
   for (const key of keys) await page.keyboard.press(key)
 }
-/** Until the page of a recording's phases has drawn the signer. */
+/** Waits until the page of a recording's phases has drawn the signer. */
 async function bench() {
   await page.waitForFunction(() => document.querySelector('.bench[data-ready]') && window.signweaveStage?.panes[0]?.seen)
-  // What keys and buttons do is asked here, not how it is drawn, which takes software long.
+  // Tests the actions of keys and buttons without drawing, which is slow in software.
   await page.evaluate(() => {
     if (window.signweaveStage) window.signweaveStage.touch = () => {}
   })
@@ -32,7 +32,7 @@ test('reviews proposed phases by keyboard', async () => {
   await bench()
   const count = Number(/0 of (\d+) decided/.exec(await progress())[1])
   assert.ok(count > 4, `${count} proposals`)
-  await until(async () => assert.match(await page.locator('main').textContent(), /Proposed from motion alone: a person must check each/))
+  await until(async () => assert.match(await page.locator('main').textContent(), /Proposed from motion alone: each one must be checked by a person/))
   await until(async () =>
     assert.deepEqual((await page.locator('.names li').allTextContents()).filter(Boolean).slice(0, 4), ['Right hand', 'Left hand', 'Gloss', 'Phase']),
   )
@@ -53,7 +53,7 @@ test('reviews proposed phases by keyboard', async () => {
     now.slice(0, 3).map(({ state }) => state),
     ['accepted', 'rejected', 'open'],
   )
-  // A border by a frame and by ten; the picture is there.
+  // Moves a border by one frame and by ten; the picture follows.
   const [, , third] = now
   await press('w', 'Shift+P')
   near((await transport(page)).time, (third.end + 100 - 10) / 1000)
@@ -62,7 +62,7 @@ test('reviews proposed phases by keyboard', async () => {
   await until(async () => assert.deepEqual(await spanOf(), [third.begin + 110, third.end + 100]))
   now = await draft()
   for (const hand of ['right', 'left']) for (let i = 1; i < now[hand].length; ++i) assert.ok(now[hand][i].begin >= now[hand][i - 1].end, 'phases overlap')
-  // Split, merge, and all of it undone and done again.
+  // Split, merge, and all of it undone and redone.
   await press('ArrowRight', 'x')
   await until(async () => assert.equal(await progress(), `2 of ${count + 1} decided`))
   await press('m')
@@ -74,13 +74,13 @@ test('reviews proposed phases by keyboard', async () => {
   await page.keyboard.press('Shift+Enter')
   await until(async () => assert.equal(await progress(), `${count} of ${count} decided`))
   await press('z')
-  // It is kept until it is stored; letters are keys only where they may be.
+  // The draft is kept until it is stored; letters are shortcuts only if enabled.
   await page.evaluate(() => localStorage.setItem('signweave.keys', 'off'))
   await page.reload()
   await bench()
   await page.evaluate(() => localStorage.removeItem('signweave.keys'))
   await until(async () => assert.equal(await progress(), `2 of ${count} decided`))
-  await until(async () => assert.match(await page.locator('main').textContent(), /Taken up where you left it/))
+  await until(async () => assert.match(await page.locator('main').textContent(), /Continued from your draft/))
   await press('ArrowDown', 'x', 'v')
   await until(async () => assert.deepEqual(await draft(), now))
 })
@@ -88,7 +88,7 @@ test('reviews proposed phases by keyboard', async () => {
 test('reviews phases by mouse and buttons', async () => {
   await visit('#/mine/phases/plain', { size: kSmall })
   await bench()
-  await button('All').click()
+  await button('Show all').click()
   const lane = await page.getByRole('slider', { name: 'Time' }).boundingBox()
   const { duration } = await transport(page)
   const x = (ms) => lane.x + (ms / 1000 / duration) * lane.width,
@@ -98,7 +98,7 @@ test('reviews phases by mouse and buttons', async () => {
   await page.mouse.click(x((one.begin + one.end) / 2), kRight)
   await page.getByText('Right hand ·').waitFor()
   const read = async () => (await draft()).right.find(({ id }) => id === one.id)
-  // The end, dragged: not a step but one that can be undone.
+  // The end, dragged: a single step that can be undone.
   await page.mouse.move(x(one.end), kRight)
   await until(async () => assert.equal(await page.locator('.lane').evaluate((element) => element.style.cursor), 'ew-resize'))
   await page.mouse.down()
@@ -121,7 +121,7 @@ test('reviews phases by mouse and buttons', async () => {
   await until(async () => assert.equal((await read()).kind, one.kind))
 })
 
-test('writes nothing over a review that another window goes on with', async () => {
+test('overwrites no review that is continued in another window', async () => {
   if (!page?.url().endsWith('#/mine/phases/plain')) await visit('#/mine/phases/plain', { size: kSmall })
   await bench()
   const mine = await draft()
@@ -143,15 +143,15 @@ test('writes nothing over a review that another window goes on with', async () =
   await until(async () => assert.equal(await kind(), 'theirs', 'the last keystroke won'))
   await button('Keep mine').click()
   await until(async () => assert.equal(await kind(), mine.right[0].kind))
-  await until(async () => assert.notDeepEqual(await draft(), mine, 'what was done meanwhile is lost'))
+  await until(async () => assert.notDeepEqual(await draft(), mine, 'later changes are lost'))
   await theirs('theirs again')
-  await button('Take over what is there').click()
+  await button('Use the other window’s review').click()
   await until(async () => assert.equal(await page.getByText('This review was changed').count(), 0))
   await press('Control+z', 'Control+z')
   await until(async () => assert.deepEqual(await draft(), mine))
-  // Stored or given up there: nothing is kept here in its place unless somebody says so.
+  // Stored or discarded there: nothing replaces it here without confirmation.
   await other.evaluate(() => localStorage.removeItem('signweave.review.mine/plain'))
-  await page.getByText('stored or given up in another window').waitFor()
+  await page.getByText('stored or discarded in another window').waitFor()
   await press('v')
   await until(async () => assert.equal(await draft(), undefined))
   await press('Control+z')
@@ -160,12 +160,12 @@ test('writes nothing over a review that another window goes on with', async () =
   await other.close()
 })
 
-test('saves checked phases beside what is annotated, as EAF and in the database, and takes them up again', async () => {
+test('saves checked phases next to the annotation, as EAF and in the database, and continues from them', async () => {
   await visit('#/mine/phases/plain', { size: kSmall })
   await bench()
   const before = await annotation('plain')
   await press('Shift+Enter', 'ArrowDown', 'Enter')
-  await page.getByText('accepted with all, unseen').or(page.getByText('of these unseen:')).first().waitFor()
+  await page.getByText('accepted unseen, with all others').or(page.getByText('accepted unseen:')).first().waitFor()
   const { right, left } = await draft()
   const unseen = [...right, ...left].filter((one) => one.unseen).length
   assert.ok(unseen > 0)
@@ -174,12 +174,12 @@ test('saves checked phases beside what is annotated, as EAF and in the database,
     'Phase LH (checked)': left.filter(({ state }) => state === 'accepted'),
   }
   await button('Save…').click()
-  await page.getByLabel('Who checked them').fill('Zoé <b>')
+  await page.getByLabel('Checked by').fill('Zoé <b>')
   const coming = page.waitForEvent('download')
   await button('Save as EAF').click()
   const eaf = join(folder, 'checked', 'plain.eaf')
   await (await coming).saveAs(eaf)
-  // The program reads it, and every line that was there is there but one, the last annotation's number.
+  // The program reads it, and every previous line is preserved except one, the last annotation's number.
   const info = execFileSync(kSignweave, ['info', eaf], { encoding: 'utf8', stdio: ['ignore', 'pipe', 'ignore'] })
   for (const [tier, phases] of Object.entries(wanted)) assert.match(info, new RegExp(`${tier.replace(/[()]/g, '\\$&')} +checked phase +${phases.length}\\b`))
   const written = readFileSync(eaf, 'utf8'),
@@ -200,18 +200,18 @@ test('saves checked phases beside what is annotated, as EAF and in the database,
     execFileSync(kSignweave, ['import', database, eaf, '--phase-tier', 'Phase RH (checked)'], { encoding: 'utf8', stdio: ['ignore', 'pipe', 'ignore'] }),
     /plain: added.*36 signs/,
   )
-  // In the database: what signs' phases are taken from is asked first. Somebody else has stored another annotation meanwhile: it is told, and stays.
+  // In the database: the source of the signs' phases is chosen first. Another annotation stored meanwhile by someone else is reported, and preserved.
   const colleague = (gloss) => store('plain', { motion: false, change: (text) => text.replace('>METEO<', `>${gloss}<`) })
   await colleague('COLLEAGUE')
   await button('Store in the database…').click()
-  await page.getByText('The annotation of plain in mine is replaced').waitFor()
-  await page.getByText('The annotation of plain was changed by somebody else since you began').waitFor()
-  await until(async () => assert.ok(await page.getByLabel('as now: Phase').isChecked()))
+  await page.getByText('This file replaces the annotation of plain in mine').waitFor()
+  await page.getByText('Someone else changed the annotation of plain since you began').waitFor()
+  await until(async () => assert.ok(await page.getByLabel('unchanged: Phase').isChecked()))
   await colleague('AGAIN')
   await button('Store in the database').click()
   await page.getByText('so nothing was stored yet').waitFor()
   await until(async () => assert.match(await annotation('plain'), />AGAIN</))
-  // Nor is one replaced that came at the last moment, when the import was on its way.
+  // Nor is an annotation replaced that was stored at the last moment, when the import was already submitted.
   const again = page.waitForResponse('**/uploads/*/inspect')
   await page.route(
     '**/uploads/*/import',
@@ -225,7 +225,7 @@ test('saves checked phases beside what is annotated, as EAF and in the database,
   await again
   await page.getByLabel('the checked phases: Phase RH (checked)').check()
   await until(async () => assert.match(await annotation('plain'), />LAST</))
-  // Stored is said when nothing is left to do, however slowly the server answers.
+  // Success is reported when everything is done, however slowly the server answers.
   const reading = '**/recordings/plain/annotation*'
   await page.route(reading, (route) => void setTimeout(() => void route.continue(), 400))
   await button('Store in the database').click()
@@ -238,16 +238,16 @@ test('saves checked phases beside what is annotated, as EAF and in the database,
   assert.ok(ours.length > 0 && ours.every(({ tier }) => tier === 'Phase RH (checked)' || tier === 'Gloss'), JSON.stringify(ours.slice(0, 3)))
   await page.keyboard.press('Escape')
   await until(async () => assert.equal(await draft(), undefined))
-  // A second review begins with what was stored.
+  // A second review starts from what was stored.
   await page.reload()
   await bench()
-  await until(async () => assert.match(await page.locator('main').textContent(), /Taken up from what is stored with the recording/))
+  await until(async () => assert.match(await page.locator('main').textContent(), /Continued from the phases stored with the recording/))
   await until(async () =>
     assert.deepEqual((await page.locator('.names li').allTextContents()).filter(Boolean).slice(0, 4), ['Right hand', 'Left hand', 'Gloss', 'Phase']),
   )
   const decided = Object.values(wanted).flat().length
   await until(async () => assert.equal(await progress(), `${decided} of ${decided} decided`))
-  await until(async () => assert.match(await page.locator('.progress').textContent(), new RegExp(`of these unseen: ${unseen}\\b`)))
+  await until(async () => assert.match(await page.locator('.progress').textContent(), new RegExp(`accepted unseen: ${unseen}\\b`)))
   await press('ArrowDown', 'Delete', 'z')
   await until(async () =>
     assert.deepEqual(
@@ -288,7 +288,7 @@ test('goes to a phase that ends after the last frame', async () => {
   await bench()
   const count = Number(/of (\d+) decided/.exec(await progress())[1])
   for (let i = 0; i < count; ++i) await press('ArrowDown')
-  // The last is repeated up to the last frame.
+  // The last phase is repeated up to the last frame.
   await until(async () => {
     const { loop, duration } = await transport(page)
     assert.ok(loop && duration - loop.end < 0.05, `${loop?.end} of ${duration}`)
@@ -297,7 +297,7 @@ test('goes to a phase that ends after the last frame', async () => {
   assert.deepEqual(faults, [])
 })
 
-test('leaves nothing of the review behind', async () => {
+test('leaves no trace of the review', async () => {
   await visit('')
   await asBefore()
   await empty()

@@ -13,7 +13,7 @@ import { site, testsWith } from './suite.mjs'
 let api, context, page, renderer
 const kPiece = { ...kRequest, call: 'recording', parameters: { recording: 'meteo', from: 2000, to: 3500 }, width: 480, height: 270 }
 
-/** `silent` is `meteo` that declares nothing, and `faceless` is `meteo` without its face. */
+/** `silent` is `meteo` without declarations, and `faceless` is `meteo` without its face. */
 function prepare(corpus) {
   for (const name of ['silent', 'faceless']) {
     for (const end of ['bvh', 'eaf', 'face.csv']) cpSync(join(corpus, `meteo.${end}`), join(corpus, `${name}.${end}`))
@@ -23,7 +23,7 @@ function prepare(corpus) {
   rmSync(join(corpus, 'faceless.face.csv'))
 }
 
-/** A page that asks the server for everything anew. */
+/** Returns a page with empty caches. */
 async function newPage() {
   const fresh = await context.newPage()
   await (await context.newCDPSession(fresh)).send('Network.setCacheDisabled', { cacheDisabled: true })
@@ -31,7 +31,7 @@ async function newPage() {
 }
 
 let held
-/** A server, what stands for `signweave render`, and a browser. */
+/** Starts a server, a stand-in for `signweave render`, and a browser. */
 async function started() {
   held ??= hold((work) => withServer(site, (address) => withRenderer(address, (mine) => withBrowser((browser) => work(address, mine, browser))), prepare))
   ;[api, renderer, context] = await held.given
@@ -40,18 +40,18 @@ async function started() {
 after(() => held?.end())
 const test = testsWith(started)
 
-/** How many frames the server has of what is rendered, and their rate; not by the page's own code. */
-async function told({ recording, from, to }) {
+/** Returns the server's number of frames of the rendered motion, and their rate; independent of the page's code. */
+async function serverFrames({ recording, from, to }) {
   const body = Buffer.from(await (await fetch(`${api}/api/databases/demo/recordings/${recording}/motion?format=frames&from=${from}&to=${to}`)).arrayBuffer())
   return JSON.parse(body.subarray(4, 4 + body.readUInt32LE(0)).toString())
 }
 const names = (put) => [...put.files.keys()]
 const difference = (a, b) => a.reduce((sum, value, i) => sum + Math.abs(value - b[i]), 0) / a.length
 
-test('a film has every picture, each at the time of its number', async () => {
+test('a video contains every frame, each at the time of its number', async () => {
   const put = await renderer.run(page, kPiece)
   assert.equal(put.fault, undefined)
-  const { frames, rate } = await told(kPiece.parameters)
+  const { frames, rate } = await serverFrames(kPiece.parameters)
   const count = Math.floor(((frames - 1) * 30) / rate + 1e-6) + 1
   assert.ok(count >= 44, `${count}`)
   assert.deepEqual(names(put), ['film.webm'])
@@ -78,23 +78,23 @@ test('a film has every picture, each at the time of its number', async () => {
     assert.deepEqual([width, height], [480, 270])
     assert.ok(Math.max(...grey) - Math.min(...grey) > 40, 'a blank picture')
   }
-  assert.ok(difference(pictures[0].grey, pictures.at(-1).grey) > 1, 'the first picture is the last')
+  assert.ok(difference(pictures[0].grey, pictures.at(-1).grey) > 1, 'the first picture equals the last')
   const still = pictures.slice(1).filter(({ grey }, k) => difference(grey, pictures[k].grey) === 0).length
-  assert.ok(still < count / 2, `${still} of ${count} pictures are as the one before`)
+  assert.ok(still < count / 2, `${still} of ${count} pictures equal the previous one`)
 })
 
 const kLong = { ...kPiece, parameters: { recording: 'meteo', from: 2000, to: 6300 }, width: 160, height: 90 }
 
-test('a film longer than two seconds has a key frame every two seconds', async () => {
+test('a video longer than two seconds has a key frame every two seconds', async () => {
   const film = readWebm((await renderer.run(page, { ...kLong, rate: 15 })).files.get('film.webm'))
   const keys = film.blocks.flatMap(({ key }, k) => (key ? [k] : []))
   for (const k of [0, 30, 60]) assert.ok(keys.includes(k), `key frames: ${keys}`)
 })
 
-test('progress is told at most twice a second', async () => {
+test('progress is reported at most twice a second', async () => {
   const put = await renderer.run(page, { ...kLong, kind: 'png', rate: 10 })
   assert.equal(put.files.size, 43)
-  // As the page sends it: words may come closer together.
+  // As the page sends it: progress reports may be closer together.
   const sent = await page.evaluate(() =>
     performance
       .getEntriesByType('resource')
@@ -107,7 +107,7 @@ test('progress is told at most twice a second', async () => {
   assert.deepEqual(put.late, [])
 })
 
-test('pictures come in order, in the size asked for, and tell the same moment the same way', async () => {
+test('images come in order, in the requested size, and are the same for the same moment', async () => {
   const few = { ...kPiece, kind: 'png', width: 320, height: 180, parameters: { recording: 'meteo', from: 2000, to: 2500 }, rate: 10 }
   const every = await renderer.run(page, few)
   assert.deepEqual(
@@ -126,10 +126,10 @@ test('pictures come in order, in the size asked for, and tell the same moment th
   assert.ok(chosen.files.get('00002.png').equals(every.files.get('00001.png')), 'the moment 0 is another picture')
   assert.ok(!every.files.get('00001.png').equals(every.files.get('00005.png')), 'nothing moves')
   const beyond = await renderer.run(page, { ...few, at_ms: [501] })
-  assert.equal(beyond.fault, 'there is nothing at 501 ms: the motion lasts 500 ms')
+  assert.equal(beyond.fault, 'no frame at 501 ms: the motion lasts 500 ms')
 })
 
-test('what a recording declares stands in every picture, and that its face is neutral', async () => {
+test('the declarations of a recording are in every frame, and the note that its face is neutral', async () => {
   const one = { ...kPiece, kind: 'png', width: 640, height: 360, at_ms: [0, 700] }
   const text = {}
   for (const recording of ['meteo', 'silent', 'faceless']) {
@@ -139,13 +139,13 @@ test('what a recording declares stands in every picture, and that its face is ne
     for (const png of put.files.values()) text[recording].push((await looked(page, png)).text)
   }
   for (const k of [0, 1]) {
-    assert.equal(text.silent[k], 0, 'text where nothing is declared')
+    assert.equal(text.silent[k], 0, 'text without declarations')
     assert.ok(text.meteo[k] > 200, `${text.meteo[k]} pixels of text`)
     assert.ok(text.faceless[k] > 1.5 * text.meteo[k], `${text.faceless[k]} and ${text.meteo[k]} pixels of text`)
   }
 })
 
-test('a view from the side and one of the hands are other pictures', async () => {
+test('the side view and the view of the hands differ from the front view', async () => {
   const one = { ...kPiece, kind: 'png', width: 320, height: 180, at_ms: [700] }
   const pictures = []
   for (const view of ['front', 'side', 'hands']) {
@@ -156,7 +156,7 @@ test('a view from the side and one of the hands are other pictures', async () =>
   assert.equal(new Set(pictures).size, 3)
 })
 
-test('what goes wrong is put as one line, and nothing after it', async () => {
+test('a fault is sent as one line, and nothing after it', async () => {
   const wrong = { ...kPiece, call: 'sign', parameters: { utterance: 'VANNNES' } }
   const server = await fetch(`${api}/api/databases/demo/sign`, {
     method: 'POST',
@@ -175,7 +175,7 @@ test('what goes wrong is put as one line, and nothing after it', async () => {
     assert.match((await renderer.run(page, { ...kPiece, ...what })).fault, line)
   }
   const full = await renderer.run(page, { ...kPiece, kind: 'png', width: 160, height: 90 }, { refuse: (name) => name === '00002.png' })
-  assert.equal(full.fault, 'the server did not take 00002.png: the disk is full')
+  assert.equal(full.fault, 'the server did not accept 00002.png: the disk is full')
   renderer.lost = /\/assets\/stage/
   const lost = await renderer.run(page, kPiece)
   renderer.lost = undefined
@@ -189,15 +189,15 @@ test('what goes wrong is put as one line, and nothing after it', async () => {
 test('a fault anywhere in the page ends the render', async () => {
   const long = { ...kPiece, parameters: { recording: 'meteo', from: 2000, to: 12000 } }
   const thrown = () => {
-    throw new Error('nobody saw this coming')
+    throw new Error('an unexpected fault')
   }
   const rejected = () => void Promise.reject(new Error('nor this'))
   for (const [work, line] of [
-    [thrown, 'nobody saw this coming'],
+    [thrown, 'an unexpected fault'],
     [rejected, 'nor this'],
   ]) {
     const other = await newPage()
-    // Once the render is under way.
+    // Once the render is in progress.
     await other.addInitScript(`{
       const timer = setInterval(() => {
         if (!performance.getEntriesByType('resource').some(({ name }) => name.endsWith('/progress'))) return
@@ -212,7 +212,7 @@ test('a fault anywhere in the page ends the render', async () => {
   }
 })
 
-test('a character signs where it is asked for, and a drawn body stands in where its surfaces are lost', async () => {
+test('a requested character is drawn, or a plain body if its surfaces are lost', async () => {
   const { characters } = await (await fetch(`${api}/api/characters`)).json()
   const character = characters[0].name
   const one = { ...kPiece, kind: 'png', width: 640, height: 360, at_ms: [700] }
@@ -225,5 +225,5 @@ test('a character signs where it is asked for, and a drawn body stands in where 
   assert.ok((await looked(page, b)).spread > 5, 'a blank picture')
   assert.ok(!a.equals(b) && !b.equals(c), 'the same picture')
   const [said, more] = [(await looked(page, b, 60)).text, (await looked(page, c, 60)).text]
-  assert.ok(more > 1.5 * said, `${more} and ${said} pixels of text: nothing tells that a drawn body stands in`)
+  assert.ok(more > 1.5 * said, `${more} and ${said} pixels of text: no text says that a drawn body is shown instead`)
 })

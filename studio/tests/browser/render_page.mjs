@@ -7,9 +7,9 @@ async function bodyOf(request) {
 }
 
 /**
- * Runs `work(renderer)` with what `signweave render` is for a page: a server that takes what the page puts, and for everything else
- * hands on what a real one at `real` answers, which serves the built site and the calls. `renderer.run(page, request)` resolves with
- * what was put; paths that `renderer.lost` matches are not found.
+ * Runs `work(renderer)` with a stand-in for `signweave render`: a server that accepts what the page sends, and forwards everything else to a real one at
+ * `real`, which serves the built site and the calls. `renderer.run(page, request)` resolves with what was sent; paths that `renderer.lost` matches are not
+ * found.
  */
 export async function withRenderer(real, work) {
   const runs = new Map()
@@ -26,7 +26,7 @@ export async function withRenderer(real, work) {
         .end(status === 200 ? '{}' : '{"error":{"code":"io","message":"the disk is full"}}')
     }
     if (renderer.lost?.test(pathname)) return response.writeHead(404).end()
-    const { origin, ...headers } = request.headers // the real server is asked as by its own pages
+    const { origin, ...headers } = request.headers // the real server is called as by its own pages
     const to = forward(real + request.url, { method: request.method, headers: { ...headers, host: new URL(real).host } }, (answer) => {
       response.writeHead(answer.statusCode, answer.headers)
       answer.pipe(response)
@@ -37,7 +37,7 @@ export async function withRenderer(real, work) {
   await new Promise((ready) => server.listen(0, '127.0.0.1', ready))
   const address = `http://127.0.0.1:${server.address().port}`
 
-  /** `refuse(name)` says which puts are answered as by a server that cannot keep them. */
+  /** `refuse(name)` selects uploads that are answered as by a server that cannot store them. */
   async function run(page, request, { refuse = () => false, timeout = 600_000, raw } = {}) {
     const id = `r${++count}`
     const put = { files: new Map(), names: [], progress: [], done: undefined, fault: undefined, late: [] }
@@ -68,7 +68,7 @@ export async function withRenderer(real, work) {
       clearTimeout(timer)
     }
     put.seconds = (performance.now() - start) / 1000
-    await new Promise((resolve) => setTimeout(resolve, 300)) // for what comes after the end, which must be nothing
+    await new Promise((resolve) => setTimeout(resolve, 300)) // for requests after the end, of which there must be none
     return put
   }
   try {

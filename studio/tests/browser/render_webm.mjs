@@ -1,13 +1,13 @@
-/** Elements of EBML that the test looks into or reads, by their number. */
+/** EBML elements that the test descends into or reads, by their number. */
 const kInto = new Set([0x18538067, 0x1549a966, 0x1654ae6b, 0xae, 0xe0, 0x1f43b675])
 const kNames = { 0x4489: 'duration', 0x2ad7b1: 'scale', 0x86: 'codec', 0x23e383: 'frameNs', 0xb0: 'width', 0xba: 'height' }
 
-/** Reads a WebM file of one track: what it says of itself, and its blocks in the order of the file. Throws where it is none. */
+/** Reads a WebM file of one track: its metadata, and its blocks in the order of the file. Throws if it is invalid. */
 export function readWebm(bytes) {
   const film = { blocks: [] }
   let cluster = 0
   const number = (at, length) => Number([...bytes.subarray(at, at + length)].reduce((sum, byte) => (sum << 8n) | BigInt(byte), 0n))
-  // The first byte's leading zeros tell the length; of a size, what is left of that byte belongs to the number.
+  // The leading zeros of the first byte give the length; for a size, the remaining bits of that byte belong to the number.
   const varying = (at, keep) => {
     const length = Math.clz32(bytes[at]) - 23
     if (length > 8) throw new Error(`no EBML at ${at}`)
@@ -35,8 +35,8 @@ export function readWebm(bytes) {
 }
 
 /**
- * Decodes every block in a page: each picture's time in µs, its grey values at 32×18, and how many pixels of its last 24 rows are light and warm, as the
- * caption's text is.
+ * Decodes every block in a page: each frame's time in µs, its grey values at 32×18, and how many pixels of its last 24 rows are light and warm, like the
+ * caption's text.
  */
 export async function decoded(page, { blocks }, codec) {
   return page.evaluate(
@@ -83,7 +83,7 @@ export async function decoded(page, { blocks }, codec) {
   )
 }
 
-/** Looks at a picture in a page: its size, how much its grey values differ, and how many pixels of the last `rows` are of the text's colour. */
+/** Analyses an image in a page: its size, the spread of its grey values, and how many pixels of the last `rows` have the text's colour. */
 export async function looked(page, png, rows = 30) {
   return page.evaluate(
     async ([base64, count]) => {

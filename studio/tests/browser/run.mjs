@@ -1,4 +1,4 @@
-// Runs the browser suites in two processes side by side: run.mjs SITE [--main | NAME…]. --main: of every suite the tests of main paths only.
+// Runs the browser suites in two parallel processes: run.mjs SITE [--main | NAME…]. --main: of every suite only the tests of main paths.
 import { fork } from 'node:child_process'
 import { existsSync } from 'node:fs'
 import { join } from 'node:path'
@@ -14,7 +14,7 @@ if (!site || strange.length > 0) {
   process.exit(2)
 }
 
-/** Runs suites in a process, and gives what came of each test. */
+/** Runs suites in a process, and returns the result of each test. */
 function runHalf(names) {
   const results = []
   const child = fork(join(import.meta.dirname, 'half.mjs'), names, {
@@ -28,7 +28,7 @@ function runHalf(names) {
   })
   return new Promise((resolve) => {
     child.once('exit', (code, signal) => {
-      // A process that ends badly although no test failed.
+      // A process that fails although no test failed.
       if (code !== 0 && !results.some(({ fault }) => fault))
         results.push({ name: names.join(', '), seconds: 0, fault: `the process ended with ${signal ?? code}` })
       resolve(results)
@@ -58,6 +58,6 @@ const count = results.flat().length
 console.log(`browser: ${count} tests, ${count - failed.length} passed, ${failed.length} failed, in ${((performance.now() - start) / 1000).toFixed(0)} s`)
 if (failed.length > 0 || count === 0) {
   for (const { name } of failed) console.log(`failed: ${name}${existsSync(folderOf(name)) ? `, see ${folderOf(name)}` : ''}`)
-  console.log(`left of failed tests: pictures, console output and server logs in ${kFailures}`)
+  console.log(`evidence of failed tests: pictures, console output and server logs in ${kFailures}`)
   process.exitCode = 1
 }

@@ -1,4 +1,4 @@
-// Takes a picture of every view: screenshots.mjs SITE OUT_FOLDER [ONLY]. Look at them at full size.
+// Takes a picture of every view: screenshots.mjs SITE OUT_FOLDER [ONLY]. Inspect them at full size.
 import { mkdirSync } from 'node:fs'
 import { join } from 'node:path'
 import { withBrowser } from './chromium.mjs'
@@ -86,7 +86,7 @@ const kViews = [
     hash: '#/demo/search',
     then: async (page) => {
       for (let i = 0; i < 50 && !(await page.locator('.field [role=option]').count()); ++i) {
-        // until the vocabulary is there
+        // until the vocabulary is loaded
         await page.locator('.field textarea').fill('gloss = "VANNES" & phase = ')
         await page.keyboard.press('Control+Space')
       }
@@ -142,7 +142,7 @@ function chooseFiles(page, folder) {
   return page.locator('input[type=file]:not([webkitdirectory])').setInputFiles(names.map((name) => join(folder, 'corpus', name)))
 }
 
-/** Until what is composed is there, at a moment with the hands up. */
+/** Waits until the composition is loaded, at a moment with the hands up. */
 async function composed(page, at = 2) {
   await page.waitForFunction(
     () =>
@@ -171,17 +171,17 @@ async function scenario(page) {
   await page.waitForFunction(() => window.signweaveStage?.panes.length === 2, null, { timeout: 90_000 })
   await composed(page, 28.2)
 }
-/** Until the first answers are drawn; then nothing plays any more. */
+/** Waits until the first answers are drawn; then pauses everything. */
 async function shown(page) {
   await page.waitForFunction(
     () => window.signweaveStage?.panes[0]?.seen || [...(window.signweaveSheet?.cells.values() ?? [])].filter(({ seen }) => seen).length > 5,
     null,
     { timeout: 90_000 },
   )
-  await page.evaluate(() => document.querySelector('.play').click()) // at once: while it plays, software has no time for a mouse
+  await page.evaluate(() => document.querySelector('.play').click()) // at once: during playback, software rendering leaves no time for a mouse
 }
 
-/** Has a page take the software that draws here for a graphics card: shadows and smooth edges, however long they take. */
+/** Makes a page take the software renderer for a graphics card: shadows and antialiasing, however long they take. */
 function likeACard() {
   const { getParameter } = WebGL2RenderingContext.prototype
   WebGL2RenderingContext.prototype.getParameter = function (name) {
@@ -212,7 +212,7 @@ await withServer(
             await page.addInitScript((body) => localStorage.setItem('signweave.body', body), view.body ?? 'woman')
             if (!/search/.test(view.name)) await page.addInitScript(likeACard)
             await page.addInitScript(() => {
-              // no view sees what another has begun
+              // no view sees another's progress
               if (!sessionStorage.begun) ['guide', 'study.demo'].forEach((key) => localStorage.removeItem(`signweave.${key}`))
               sessionStorage.begun = '1'
             })

@@ -1,19 +1,19 @@
-// The search: queries, answers as a table and side by side.
+// The search: queries, answers as a table and as a grid.
 import assert from 'node:assert/strict'
 import { axeFaults, computedBy, transport } from './page_tools.mjs'
-import { addressOf, answered, asked, button, field, kAll, list, told } from './search_tools.mjs'
+import { addressOf, answered, asked, button, field, kAll, list, status } from './search_tools.mjs'
 import { address, kDeclared, mainTest, page, test, visit } from './suite.mjs'
 import { opened, until } from './waits.mjs'
 
 const near = (value, wanted, tolerance = 1e-3) => assert.ok(Math.abs(value - wanted) <= tolerance, `${value} is not ${wanted}`)
-/** Until the player beside the table shows a loop of so many seconds. */
+/** Waits until the player next to the table shows a loop of the given seconds. */
 const looped = (seconds) =>
   page.waitForFunction((wanted) => {
     const { loop } = window.signweaveStage?.transport ?? {}
     return loop && Math.abs(loop.end - loop.begin - wanted) < 0.015 && window.signweaveStage.panes[0]?.seen
   }, seconds)
 const active = () => page.evaluate(() => document.querySelector('.line.active .name')?.textContent)
-/** Asks for completions until the vocabulary is there. */
+/** Requests completions until the vocabulary is loaded. */
 const completions = () =>
   page.waitForFunction(
     () => {
@@ -25,7 +25,7 @@ const completions = () =>
     { polling: 100 },
   )
 
-test('completes a query where it stands, by keyboard alone', async () => {
+test('completes a query at the caret, by keyboard alone', async () => {
   await visit('#/demo/search', { still: true })
   await field().focus()
   const options = page.getByRole('listbox', { name: 'Query' }).getByRole('option')
@@ -63,7 +63,7 @@ test('completes a query where it stands, by keyboard alone', async () => {
     assert.equal(new URLSearchParams((await page.evaluate(() => location.hash)).split('?')[1]).get('q'), 'gloss = "VANNES" & phase = stroke'),
   )
   await until(async () => assert.match(await page.locator('[role=status]').filter({ hasText: 'LSF' }).textContent(), kDeclared))
-  // What a tier says is asked for when it is wanted, and is in the list as soon as it is there.
+  // A tier's labels are requested when needed, and are in the list as soon as they arrive.
   let asked = 0,
     goOn
   const hold = new Promise((resolve) => (goOn = resolve))
@@ -86,7 +86,7 @@ test('completes a query where it stands, by keyboard alone', async () => {
   await page.unroute('**/labels?tier=Phase')
 })
 
-test('marks what is at fault where it stands, and offers what was meant', async () => {
+test('marks the faulty part, and offers suggestions', async () => {
   await visit('#/demo/search', { still: true })
   await field().fill('gloss = "VANNES" &')
   await page.keyboard.press('Shift+Enter')
@@ -103,7 +103,7 @@ test('marks what is at fault where it stands, and offers what was meant', async 
   })
   assert.equal(lines, 1, 'the mark is not in the second line')
   assert.ok(left > 85 && left < 105, `the mark is at ${left}`)
-  await page.keyboard.type('e') // whoever changes the text needs no mark any more
+  await page.keyboard.type('e') // the mark disappears when the text is changed
   await until(async () => assert.equal(await page.locator('.marked').count(), 0))
   await field().fill('glos = "VANNES"')
   await page.keyboard.press('Enter')
@@ -113,15 +113,15 @@ test('marks what is at fault where it stands, and offers what was meant', async 
   await until(async () => assert.equal(await field().inputValue(), 'gloss = "VANNES"'))
 })
 
-test('finds words, and says how they fit', async () => {
+test('finds words, and says how they match', async () => {
   await asked('vannes')
   await answered(3)
-  await until(async () => assert.equal(await page.getByRole('gridcell', { name: 'spelt differently' }).count(), 3))
+  await until(async () => assert.equal(await page.getByRole('gridcell', { name: 'different spelling' }).count(), 3))
   await asked('matin nuages')
   await answered(1)
-  await page.getByRole('gridcell', { name: 'one after another' }).waitFor()
+  await page.getByRole('gridcell', { name: 'in sequence' }).waitFor()
   await asked('vanes')
-  await until(async () => assert.match(await told().textContent(), /^No answers/))
+  await until(async () => assert.match(await status().textContent(), /^No answers/))
   await button('VANNES').click()
   await answered(3)
   await page.getByRole('gridcell', { name: 'this gloss' }).first().waitFor()
@@ -133,9 +133,9 @@ test('finds words, and says how they fit', async () => {
   await page.keyboard.press('Escape')
 })
 
-test('hints at what the database has where nothing was found', async () => {
+test('gives hints about the database’s content if nothing was found', async () => {
   await asked('gloss = VANES & phase = stroke')
-  await until(async () => assert.match(await told().textContent(), /^No answers/))
+  await until(async () => assert.match(await status().textContent(), /^No answers/))
   await button('VANNES').click()
   await answered(3)
   await until(async () => assert.equal(await field().inputValue(), 'gloss = "VANNES" & phase = stroke'))
@@ -144,7 +144,7 @@ test('hints at what the database has where nothing was found', async () => {
   await until(async () => assert.equal(await field().inputValue(), 'gloss = VANES & phase = stroke'))
 })
 
-test('has examples that all find something, and tells what the language can do', async () => {
+test('has examples that all find something, and explains the language', async () => {
   await visit('#/demo/search', { still: true })
   const texts = await until(async () => {
     const all = await page.locator('section:has(#examples-title) code').allTextContents()
@@ -161,15 +161,15 @@ test('has examples that all find something, and tells what the language can do',
     ).json()
     assert.ok(found.length > 0, text)
   }
-  await button('The language').click()
+  await button('Query language').click()
   await until(async () => assert.ok((await page.locator('section:has(#language-title) dt').count()) > 25))
-  await button('What to ask for').click()
+  await button('What to search for').click()
   await button('A word: signs of that gloss', {}).click()
   await answered(3)
-  await page.getByRole('gridcell', { name: 'spelt differently' }).first().waitFor()
+  await page.getByRole('gridcell', { name: 'different spelling' }).first().waitFor()
 })
 
-mainTest('plays a row as a loop, goes from row to row, and opens the recording there', async () => {
+mainTest('plays a row as a loop, moves from row to row, and opens the recording there', async () => {
   await asked(kAll, 64, { still: false })
   await looped(1.78)
   await until(async () => assert.equal((await transport(page)).playing, true))
@@ -181,7 +181,7 @@ mainTest('plays a row as a loop, goes from row to row, and opens the recording t
   await until(async () => assert.equal((await transport(page)).playing, false))
   await page.keyboard.press('2')
   await until(async () => assert.equal(await button('Left side').getAttribute('aria-pressed'), 'true'))
-  await page.getByLabel('A little before and after').check()
+  await page.getByLabel('Include context').check()
   await looped(1.77)
   await list().focus()
   await page.keyboard.press('End')
@@ -201,13 +201,13 @@ mainTest('plays a row as a loop, goes from row to row, and opens the recording t
       near(value, wanted)
   })
   await page.waitForFunction(() => document.querySelector('.selection')?.getBoundingClientRect().width > 20)
-  await page.goBack() // to the row that was left, what was chosen, and the keys where they were
+  await page.goBack() // to the same row, selection and focus as before
   await page.waitForFunction(() => document.querySelector('.line.active .name')?.textContent === 'METEO' && document.activeElement?.matches('.rows'))
-  await page.getByText('1 chosen', { exact: true }).waitFor()
+  await page.getByText('1 selected', { exact: true }).waitFor()
   await until(async () => assert.deepEqual(await page.locator('.shown .line:has(input:checked) .name').allTextContents(), ['METEO']))
 })
 
-test('orders and filters answers', async () => {
+test('sorts and filters answers', async () => {
   await asked(kAll, 64)
   const names = () => page.locator('.shown .name').allTextContents()
   await button('Duration').click()
@@ -225,10 +225,10 @@ test('orders and filters answers', async () => {
   await page.getByRole('searchbox').fill('vil nan')
   await page.waitForFunction(() => document.querySelectorAll('.shown .line').length < 5)
   await until(async () => assert.deepEqual([...new Set(await names())], ['NANTES']))
-  await until(async () => assert.match(await told().textContent(), /64 answers in .*, 2 shown/))
+  await until(async () => assert.match(await status().textContent(), /64 answers in .*, 2 shown/))
 })
 
-/** What a picture of the sheet takes for some seconds. */
+/** Returns the cost of the sheet's frames over some seconds. */
 const drawn = (seconds = 2) =>
   page.evaluate(async (ms) => {
     const sheet = window.signweaveSheet
@@ -239,7 +239,7 @@ const drawn = (seconds = 2) =>
     const costs = [...sheet.costs].filter((cost) => cost > 0).sort((a, b) => a - b)
     return { rate: (1000 * (sheet.pictures - from)) / (performance.now() - start), median: costs[costs.length >> 1] ?? 0 }
   }, 1000 * seconds)
-/** How many small players are seen, all of them drawn. */
+/** Waits until at least this many small players are visible and drawn. */
 const seen = (least) =>
   page
     .waitForFunction((n) => {
@@ -253,7 +253,7 @@ const cells = () =>
   )
 const held = () => page.evaluate(() => ({ ...window.signweaveSheet.held, cells: window.signweaveSheet.cells.size, actors: window.signweaveSheet.actorCount }))
 
-test('shows many tokens side by side, in step and each by itself', async () => {
+test('shows many tokens as a grid, synchronized and individually', async () => {
   await asked(kAll, 64, { more: '&view=grid', still: false })
   const medium = await seen(12),
     first = await drawn()
@@ -264,8 +264,8 @@ test('shows many tokens side by side, in step and each by itself', async () => {
     `side by side: ${medium} seen ${first.rate.toFixed(1)} pictures a second (main thread ${first.median.toFixed(1)} ms), ` +
       `${small} seen ${then.rate.toFixed(1)} (${then.median.toFixed(1)} ms)`,
   )
-  await page.getByRole('combobox', { name: 'Time' }).selectOption('step')
-  /** How far apart the cells are in their loops; those that never moved stand in the middle. */
+  await page.getByRole('combobox', { name: 'Timing' }).selectOption('step')
+  /** Returns how far apart the cells are in their loops; those that never moved count as the middle. */
   const apart = (least, most) =>
     page.waitForFunction(
       ([from, to]) => {
@@ -276,7 +276,7 @@ test('shows many tokens side by side, in step and each by itself', async () => {
       [least, most],
     )
   await apart(0, 1e-6)
-  await page.getByRole('combobox', { name: 'Time' }).selectOption('own')
+  await page.getByRole('combobox', { name: 'Timing' }).selectOption('own')
   await apart(0.05, 1)
   await page.getByLabel('View').selectOption('hands')
   await until(async () =>
@@ -308,7 +308,7 @@ test('shows many tokens side by side, in step and each by itself', async () => {
   near((await transport(page)).loop.begin, 2.98)
 })
 
-test('scrolls through hundreds of small players, and holds no more for it', async () => {
+test('scrolls through hundreds of small players without using more memory', async () => {
   await asked('phase =~ /.*/', 192, { more: '&view=grid' })
   await seen(12)
   const before = await held()
@@ -330,7 +330,7 @@ test('scrolls through hundreds of small players, and holds no more for it', asyn
 test('scrolls through a hundred thousand answers smoothly', async () => {
   await asked('phase =~ /.*/ ->[0ms..] phase =~ /.*/ ->[0ms..] phase =~ /.*/', 100000)
   await page.waitForFunction(() => window.signweaveStage?.panes[0]?.seen)
-  // What the page itself computes for a frame: how long it waits for a processor is the machine's affair.
+  // The page's own computation per frame, excluding waits for a processor.
   const computed = await computedBy(page)
   const costs = []
   let rows = 0
@@ -341,7 +341,7 @@ test('scrolls through a hundred thousand answers smoothly', async () => {
       const far = view.scrollHeight - view.clientHeight
       let seen = 0
       for (let i = first; i < first + 10; ++i) {
-        // First as a wheel does, then as who pulls the bar.
+        // First like a wheel, then like dragging the scroll bar.
         if (i < 120) view.scrollTop += 120
         else view.scrollTop = (far * (i - 119)) / 60
         await new Promise(requestAnimationFrame)
@@ -354,7 +354,7 @@ test('scrolls through a hundred thousand answers smoothly', async () => {
   }
   const last = await page.evaluate(() => document.querySelector('.rows .shown .line:last-child').getAttribute('aria-rowindex'))
   const [median, most] = [costs.toSorted((a, b) => a - b)[costs.length >> 1], Math.max(...costs)]
-  console.log(`100 000 rows scrolled: ${median.toFixed(1)} ms computed for a frame (median of ten; most ${most.toFixed(1)}), at most ${rows} rows in the page`)
+  console.log(`100 000 rows scrolled: ${median.toFixed(1)} ms computed per frame (median of ten; maximum ${most.toFixed(1)}), at most ${rows} rows in the page`)
   assert.ok(rows < 60, `${rows} rows`)
   assert.equal(last, '100001')
   assert.ok(median < 50 && most < 150, `it does not scroll smoothly: ${costs}`)
@@ -371,15 +371,15 @@ test('scrolls through a hundred thousand answers smoothly', async () => {
     await new Promise(requestAnimationFrame)
     return performance.now() - start
   })
-  console.log(`100 000 rows ordered by name: ${Math.round(sorting)} ms`)
-  // No address holds so many: it is said, and none is made.
-  await button('Choose all').click()
-  await page.getByText('At most 200 can be signed at a time: choose fewer.').waitFor()
+  console.log(`100 000 rows sorted by name: ${Math.round(sorting)} ms`)
+  // No address can hold this many: it is reported, and none is created.
+  await button('Select all').click()
+  await page.getByText('At most 200 can be signed at a time: select fewer.').waitFor()
   await until(async () => assert.equal(await button('Sign these').isDisabled(), true))
   await until(async () => assert.ok(await page.evaluate(() => [...document.querySelectorAll('a')].every(({ href }) => href.length < 10_000))))
 })
 
-test('shows every column whole beside the player', async () => {
+test('shows every column in full next to the player', async () => {
   for (const query of ['like("villes"@1200..3010)', 'gloss = $X ->[0ms..] gloss = $Y']) {
     await asked(query)
     const { wide, cut } = await page.evaluate(() => {
@@ -394,12 +394,12 @@ test('shows every column whole beside the player', async () => {
   }
 })
 
-test('finds what moves like a stretch that was selected on the timeline', async () => {
+test('finds movements similar to a span selected on the timeline', async () => {
   await visit('#/demo/recording/villes', { still: true })
   const lane = await page.getByRole('slider', { name: 'Time' }).boundingBox(),
     { duration } = await transport(page)
   await page.mouse.click(lane.x + (2 / duration) * lane.width, lane.y + 36)
-  await page.getByRole('link', { name: 'Find what moves alike' }).click()
+  await page.getByRole('link', { name: 'Find similar movements' }).click()
   await answered()
   await until(async () => assert.equal(await field().inputValue(), 'like("villes"@1200..3010)'))
   const distances = (await page.locator('.shown .line > :nth-child(2)').allTextContents()).map(Number)
@@ -411,11 +411,11 @@ test('finds what moves like a stretch that was selected on the timeline', async 
   await until(async () => assert.match(await page.locator('.line.active').textContent(), /villes.*VANNES/))
   await page.getByLabel('Nearest').selectOption('20')
   await answered(20)
-  await button('Side by side').click()
+  await button('Grid').click()
   await page.waitForFunction(() => /^0\.000/.test(document.querySelector('.cell .number')?.textContent.trim()))
 })
 
-test('tells what the server refuses, and keeps what is there', async () => {
+test('reports a refusal by the server, and keeps the previous answers', async () => {
   await asked(kAll, 64)
   await page.route(/\/query$/, (route) => route.abort())
   await field().fill('gloss = "VANNES"')

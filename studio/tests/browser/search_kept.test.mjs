@@ -1,14 +1,14 @@
-// What is kept of a search and taken along: choice, files, queries; and where it ends.
+// What is saved and exported from a search: selection, files, queries; and its limits.
 import assert from 'node:assert/strict'
-import { answered, asked, button, field, kAll, list, run, saved, told } from './search_tools.mjs'
+import { answered, asked, button, field, kAll, list, run, saved, status } from './search_tools.mjs'
 import { address, page, test, visit } from './suite.mjs'
 import { until } from './waits.mjs'
 
-test('says of a search that was stopped that there may be more', async () => {
+test('says of a stopped search that there may be more', async () => {
   await asked('gloss = "METEO"')
   await page.evaluate(() => {
     const real = window.fetch
-    // Two answers come, and then no more until it is given up.
+    // Two answers arrive, and then no more until it is cancelled.
     window.fetch = (where, init) =>
       !String(where).endsWith('/query')
         ? real(where, init)
@@ -29,21 +29,21 @@ test('says of a search that was stopped that there may be more', async () => {
   await button('Stop').click()
   await page.waitForFunction(() => document.querySelector('[data-status=stopped]')?.textContent.trim() === 'Stopped after 2 answers; there may be more')
   await page.getByText('Export', { exact: true }).click()
-  await page.getByLabel('the 2 that came before it was stopped; there may be more').waitFor()
-  await button('What to ask for').click()
+  await page.getByLabel('the 2 found before the search was stopped; there may be more').waitFor()
+  await button('What to search for').click()
   await until(async () => assert.equal(await page.locator('section:has(#recent-title) code').first().textContent(), 'gloss = "METEO"'))
 })
 
-test('chooses answers by key and mouse, saves them in every format, and signs them', async () => {
+test('selects answers by key and mouse, saves them in every format, and signs them', async () => {
   await asked('gloss = "VANNES" | gloss = "METEO"', 5)
   await list().focus()
   await page.keyboard.press('ArrowDown')
   await page.keyboard.press('x')
   await page.keyboard.press('End')
   await page.keyboard.press('Shift+X')
-  await page.getByText('4 chosen', { exact: true }).waitFor()
-  await page.getByRole('checkbox', { name: 'Choose VANNES' }).nth(1).click()
-  await page.getByText('3 chosen', { exact: true }).waitFor()
+  await page.getByText('4 selected', { exact: true }).waitFor()
+  await page.getByRole('checkbox', { name: 'Select VANNES' }).nth(1).click()
+  await page.getByText('3 selected', { exact: true }).waitFor()
   await page.getByText('Export', { exact: true }).click()
   const csv = await saved(() => button('CSV').click())
   const rows = csv.bytes.toString().trim().split('\n')
@@ -67,11 +67,11 @@ test('chooses answers by key and mouse, saves them in every format, and signs th
   )
   await page.keyboard.press('Enter')
   await button('CSV').waitFor()
-  await told().click()
+  await status().click()
   await button('CSV').waitFor({ state: 'hidden' })
   await page.getByText('Sign these').click()
   const inAddress = await page.waitForFunction(() => new URLSearchParams(location.hash.split('?')[1]).get('utterance'))
-  // Compose writes its address anew a moment later, without the quotes that no name here needs.
+  // Compose rewrites its address a moment later, without unnecessary quotes.
   const utterance = (await inAddress.jsonValue()).replaceAll('"', '')
   const pieces = rows
     .slice(1)
@@ -85,17 +85,17 @@ test('chooses answers by key and mouse, saves them in every format, and signs th
     body: JSON.stringify({ utterance }),
   })
   assert.equal(made.status, 200)
-  await until(async () => assert.equal(await page.locator('.card').count(), 3, 'Compose holds the chosen answers'))
+  await until(async () => assert.equal(await page.locator('.card').count(), 3, 'Compose contains the selected answers'))
 })
 
-test('keeps queries under names, and remembers what was asked', async () => {
+test('saves queries under names, and remembers recent ones', async () => {
   await visit('#/demo/search', { still: true })
   await page.evaluate(() => localStorage.removeItem('signweave.queries'))
   await visit('#/demo/search', { still: true })
   await run('gloss = "VANNES"', 3)
-  await button('What to ask for').click()
+  await button('What to search for').click()
   await page.getByRole('textbox', { name: 'Name' }).fill('tokens')
-  await button('Keep this query').click()
+  await button('Save this query').click()
   await visit('#/demo/search', { still: true })
   await button('Rename tokens').click()
   await page.getByRole('textbox', { name: 'New name' }).fill('all of VANNES')
@@ -109,13 +109,13 @@ test('keeps queries under names, and remembers what was asked', async () => {
   await page.locator('input[type=file]').setInputFiles({ name: file.name, mimeType: 'application/json', buffer: file.bytes })
   await page.getByText('1 queries in the file').waitFor()
   await page.locator('input[type=file]').setInputFiles({ name: 'x.json', mimeType: 'application/json', buffer: Buffer.from('{}') })
-  await page.getByText('This is no file of queries.').waitFor()
+  await page.getByText('This is not a file of queries.').waitFor()
   await until(async () => assert.equal(await page.locator('section:has(#recent-title) code').first().textContent(), 'gloss = "VANNES"'))
   await button('all of VANNES', {}).first().click()
   await answered(3)
-  // A name that is taken: it is told before, and can be undone.
+  // A name that is taken: it is announced before, and can be undone.
   await run('gloss = "METEO"')
-  await button('What to ask for').click()
+  await button('What to search for').click()
   await page.getByRole('textbox', { name: 'Name' }).fill('all of VANNES')
   await button('Replace all of VANNES').click()
   const kept = () => page.locator('section:has(#saved-title) code').allTextContents()
@@ -125,7 +125,7 @@ test('keeps queries under names, and remembers what was asked', async () => {
   await until(async () => assert.deepEqual(await kept(), ['gloss = "VANNES"']))
 })
 
-test('gives up an export when the page is left', async () => {
+test('cancels an export when the page is left', async () => {
   await asked('gloss = "VANNES" | gloss = "METEO"', 5)
   let release
   const held = new Promise((resolve) => (release = resolve))

@@ -1,4 +1,4 @@
-// What the tests of the search share.
+// Helpers shared by the tests of the search.
 import { readFileSync } from 'node:fs'
 import { page, visit } from './suite.mjs'
 
@@ -7,16 +7,16 @@ export const addressOf = (text, more = '') => `#/demo/search?q=${encodeURICompon
 export const button = (name, options = { exact: true }) => page.getByRole('button', { name, ...options })
 export const field = () => page.locator('.field textarea')
 export const list = () => page.getByRole('grid', { name: 'Answers' })
-export const told = () => page.locator('[data-status]')
+export const status = () => page.locator('[data-status]')
 
-/** Until a query has its answers. */
+/** Waits until a query has its answers. */
 export async function answered(count) {
   await page.waitForFunction((n) => {
     const line = document.querySelector('[data-status=answered]')
     return line && (n === undefined || line.textContent.trim().replace(/,/g, '').startsWith(`${n} answer`))
   }, count)
 }
-/** Visits a query. Where it is not about playing, nothing plays: software takes long to draw. */
+/** Visits a query. Nothing plays unless the test is about playback: software rendering is slow. */
 export async function asked(text, count, { more, still = true } = {}) {
   await visit(addressOf(text, more), { still })
   await answered(count)

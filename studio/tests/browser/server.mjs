@@ -12,16 +12,15 @@ const kBin = process.env.SIGNWEAVE_BIN ?? resolve(kStudio, '../build/release/bin
 const kCharacters = process.env.SIGNWEAVE_CHARACTERS ?? resolve(kStudio, '../build/characters')
 
 /**
- * Runs `work(address, folder)` with a server of its own, which serves the built studio, the characters and a demo corpus of two
- * minutes (or `minutes`), and leaves nothing of it behind. With `mine` an empty database `mine` is served beside it, and both may be changed. Films
- * that the annotation links are looked for in `folder`/films. With a `token` the server asks for it. `prepare(corpus)` may change the corpus before it is
- * imported.
+ * Runs `work(address, folder)` with a separate server, which serves the built studio, the characters and a demo corpus of two minutes (or `minutes`), and
+ * cleans up afterwards. With `mine` an empty database `mine` is served, too, and both are writable. Videos that the annotation links are expected in
+ * `folder`/films. With a `token` the server requires it. `prepare(corpus)` may change the corpus before it is imported.
  */
 export async function withServer(site, work, prepare = () => {}, { minutes = 2, mine = false, token = '' } = {}) {
   for (const program of ['signweave', 'synthetic_signer']) {
-    if (!existsSync(join(kBin, program))) throw new Error(`${join(kBin, program)} is not there; scripts/build makes it, SIGNWEAVE_BIN names another folder`)
+    if (!existsSync(join(kBin, program))) throw new Error(`${join(kBin, program)} does not exist; scripts/build creates it, SIGNWEAVE_BIN sets another folder`)
   }
-  if (!existsSync(kCharacters)) throw new Error(`${kCharacters} is not there; studio/avatar/build makes it, SIGNWEAVE_CHARACTERS names another folder`)
+  if (!existsSync(kCharacters)) throw new Error(`${kCharacters} does not exist; studio/avatar/build creates it, SIGNWEAVE_CHARACTERS sets another folder`)
   const folder = mkdtempSync(join(tmpdir(), 'signweave-studio-'))
   let server
   let unwatch = () => {}
@@ -43,7 +42,7 @@ export async function withServer(site, work, prepare = () => {}, { minutes = 2, 
     }
     server = spawn(join(kBin, 'signweave'), words, { stdio: ['ignore', 'pipe', 'pipe'] })
     const end = () => server.kill('SIGKILL')
-    process.once('exit', end) // also where the tests are interrupted
+    process.once('exit', end) // also if the tests are interrupted
     const log = join(folder, 'server.log')
     writeFileSync(log, '')
     const forget = watchLog(log)

@@ -1,4 +1,4 @@
-// What is sent to the browser, which must not be more than was agreed.
+// The sizes of files sent to the browser, which must not exceed the agreed limits.
 import assert from 'node:assert/strict'
 import { readdirSync, readFileSync } from 'node:fs'
 import { join } from 'node:path'
@@ -18,7 +18,7 @@ test('a character is small enough to be sent', async () => {
   }
 })
 
-/** Bytes of scripts, compressed, by the name of the file. */
+/** Bytes of scripts, compressed, by file name. */
 const sizes = new Map(
   readdirSync(join(site, 'assets'))
     .filter((name) => name.endsWith('.js'))
@@ -37,7 +37,7 @@ for (const [view, there] of [
   ['/compare', 'form'],
   ['/guide', 'main button'],
 ]) {
-  test(`#/demo${view} is shown with little script`, async () => {
+  test(`#/demo${view} loads little script`, async () => {
     const page = await context.newPage()
     const scripts = new Set()
     page.on('request', (request) => scripts.add(request.url().split('/').at(-1)))

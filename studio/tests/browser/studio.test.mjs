@@ -19,7 +19,7 @@ mainTest('lists recordings, with their statistics and the plot', async () => {
   await until(async () => assert.match(await page.locator('[role=status]').textContent(), kDeclared))
 })
 
-test('opens a recording by keyboard alone, and shows it before the whole motion is there', async () => {
+test('opens a recording by keyboard alone, and shows it before the whole motion is loaded', async () => {
   await visit('#/demo')
   let free
   const held = new Promise((resolve) => (free = resolve))
@@ -29,22 +29,22 @@ test('opens a recording by keyboard alone, and shows it before the whole motion 
     await route.continue()
   })
   await page.keyboard.press('Tab')
-  assert.equal(await page.evaluate(() => document.activeElement.textContent), 'To the content')
+  assert.equal(await page.evaluate(() => document.activeElement.textContent), 'Skip to content')
   for (let i = 0; i < 30; ++i) {
     await page.keyboard.press('Tab')
     if (await page.evaluate(() => document.activeElement.title === 'Open meteo')) break
   }
   assert.notEqual(await page.evaluate(() => getComputedStyle(document.activeElement).outlineStyle), 'none')
   await page.keyboard.press('Enter')
-  // One piece has come, the rest is on its way: there is a picture.
+  // One piece has arrived, the rest is in progress: there is a picture.
   await opened(page, '#/demo/recording/meteo')
   const arrived = await page.evaluate(() => window.signweaveStage.panes.map(({ store }) => store.arrived / store.length))
-  assert.ok(arrived.length === 1 && arrived[0] > 0 && arrived[0] < 0.5, `${arrived} of the motion had come before the first picture`)
+  assert.ok(arrived.length === 1 && arrived[0] > 0 && arrived[0] < 0.5, `${arrived} of the motion had arrived before the first picture`)
   free()
   await opened(page, '#/demo/recording/meteo', true)
 })
 
-test('draws the signer itself where the motion has it, when told to', async () => {
+test('draws the plain body where the motion has its joints, when selected', async () => {
   await visit('#/demo/recording/meteo?at=2.2')
   await drawn(page)
   for (const joint of ['RightHandMiddle1', 'LeftHandMiddle1']) {
@@ -76,7 +76,7 @@ mainTest('plays, steps and selects by keyboard', async () => {
   await page.keyboard.press('>')
   near((await transport(page)).speed, 1.5)
   await page.keyboard.press('Space')
-  // Until it has begun again.
+  // Until it has started again.
   const times = await page.evaluate(async () => {
     const { transport } = window.signweaveStage
     const seen = [transport.time]
@@ -98,7 +98,7 @@ mainTest('plays, steps and selects by keyboard', async () => {
   near(time, duration)
 })
 
-test('draws without shadows and smoothed edges where software draws', async () => {
+test('draws without shadows and antialiasing in software', async () => {
   await visit('#/demo/recording/meteo?at=2.2')
   await drawn(page)
   const { shadows, smoothed } = await page.evaluate(() => {
@@ -108,7 +108,7 @@ test('draws without shadows and smoothed edges where software draws', async () =
   assert.deepEqual({ shadows, smoothed }, { shadows: false, smoothed: false })
 })
 
-test('turns and changes its view by keyboard and mouse', async () => {
+test('rotates and changes its view by keyboard and mouse', async () => {
   await visit('#/demo/recording/meteo?at=2.2')
   await page.keyboard.press('2')
   near(await azimuth(page), Math.PI / 2)
@@ -144,7 +144,7 @@ test('scrubs, selects and zooms on the timeline by mouse', async () => {
   await until(async () => assert.match(await page.getByRole('slider', { name: 'Time' }).getAttribute('aria-valuetext'), /^0:1\d\.\d{3}, /))
 })
 
-/** How far a joint of a signer's body is at most from where the motion has it, in metres. */
+/** Returns the maximum distance of a joint of a signer's body from its position in the motion, in metres. */
 const apart = (pane = 0) =>
   page.evaluate((index) => {
     const { body, model } = window.signweaveStage.panes[index]
@@ -157,7 +157,7 @@ const apart = (pane = 0) =>
     )
   }, pane)
 
-test('shows the first character, by the names of its joints, with the face that was captured', async () => {
+test('shows the first character, matched by the names of its joints, with the captured face', async () => {
   await visit('')
   await page.evaluate(() => localStorage.removeItem('signweave.body'))
   await visit('#/demo/recording/meteo?at=2.2', { body: null })
@@ -180,7 +180,7 @@ test('shows the first character, by the names of its joints, with the face that 
   await until(async () => assert.equal(await page.getByText('No face captured').count(), 0))
 })
 
-test('lets the signer be chosen, keeps time and view, and remembers it', async () => {
+test('lets the user choose the signer, keeps time and view, and remembers it', async () => {
   await visit('')
   await page.evaluate(() => localStorage.setItem('signweave.body', 'drawn'))
   await visit('#/demo/recording/meteo?at=2.2', { body: null })
@@ -220,7 +220,7 @@ test('shows both hands close up', async () => {
   for (const { x, y, far } of seen) assert.ok(Math.abs(x) < 0.2 && Math.abs(y) < 0.2 && far < 1, JSON.stringify(seen))
 })
 
-test('keeps the hands in the frame, at rest and in signing', async () => {
+test('keeps the hands in the picture, at rest and during signing', async () => {
   await visit('#/demo/recording/meteo', { whole: true })
   const outside = await page.evaluate(async () => {
     const stage = window.signweaveStage,
@@ -250,17 +250,17 @@ test('keeps the hands in the frame, at rest and in signing', async () => {
   assert.deepEqual(outside, [])
 })
 
-test('shows an edited recording beside the original, sign by sign', async () => {
+test('shows an edited recording next to the original, sign by sign', async () => {
   await visit('#/demo/edit/meteo?replace=BRETAGNE%3DVANNES&replace=MATIN%232%3DLE%20MANS', { body: 'woman' })
   await until(async () =>
     assert.deepEqual(
       (await page.locator('.title').allTextContents()).map((text) => text.trim()),
-      ['Recorded meteo', 'Made meteo'],
+      ['Recorded meteo', 'Generated meteo'],
     ),
   )
   const steps = await page.evaluate(() => [5, 29.3, 40].map((t) => window.signweaveStage.panes[0].timeOf(t)))
   near(steps[0], 5, 1e-6)
-  assert.ok(Math.abs(steps[2] - 40) > 0.05, 'the original goes on by time')
+  assert.ok(Math.abs(steps[2] - 40) > 0.05, 'the original continues by time')
   await until(async () =>
     assert.deepEqual((await page.locator('.names li').allTextContents()).filter(Boolean).slice(0, 5), ['Gloss', 'Phase', 'Place', 'Source', 'Junction']),
   )
@@ -270,12 +270,12 @@ test('shows an edited recording beside the original, sign by sign', async () => 
     await until(async () => assert.ok((await apart(pane)) < 1e-3))
     for (const joint of ['finger3_1_L', 'finger3_1_R']) assert.ok(isSkin(await colorAtJoint(page, joint, pane)), `${joint} of ${pane} is not seen`)
   }
-  await page.getByLabel('In step').selectOption('time')
+  await page.getByLabel('Synchronize').selectOption('time')
   near(await page.evaluate(() => window.signweaveStage.panes[0].timeOf(40)), 40, 1e-6)
   await until(async () => assert.match(await page.locator('[role=status]').textContent(), kDeclared))
 })
 
-test('signs what an address asks for', async () => {
+test('signs the utterance in an address', async () => {
   await visit('#/demo/sign/' + encodeURIComponent('VANNES MATIN , "LE MANS" PLUIE'), { whole: true })
   await page.waitForFunction(() => window.signweaveStage.transport.duration > 3)
   const { duration } = await transport(page)
@@ -286,7 +286,7 @@ test('signs what an address asks for', async () => {
   await until(async () => assert.match(await page.getByRole('alert').textContent(), /no sign 'VANES'.*VANNES/))
 })
 
-test('signs live, and stays close to what has come', async () => {
+test('signs live, and stays close to the newest frame', async () => {
   await visit('#/demo/sign/VANNES%20MATIN?pace=live')
   const first = await transport(page)
   await page.waitForFunction((before) => window.signweaveStage.transport.duration > before + 1, first.duration)
@@ -296,7 +296,7 @@ test('signs live, and stays close to what has come', async () => {
   })
 })
 
-test('signs something else live when asked to, and tells what cannot be signed', async () => {
+test('signs another utterance live on request, and reports what cannot be signed', async () => {
   await visit('#/demo/sign/VANNES?pace=live')
   await signedLive(page, 'VANNES')
   const next = page.getByPlaceholder('Glosses in order')
@@ -310,13 +310,13 @@ test('signs something else live when asked to, and tells what cannot be signed',
   await until(async () => assert.ok((await transport(page)).duration > before.duration, 'the stream stopped'))
 })
 
-test('waits with its clock for frames that have not come', async () => {
+test('stops its clock while frames are missing', async () => {
   await visit('')
   let free
   const held = new Promise((resolve) => (free = resolve))
   let pieces = 0
   await page.route(/recordings\/meteo\/motion/, async (route) => {
-    if (++pieces > 1) await held // one piece has come, and no other is on its way
+    if (++pieces > 1) await held // one piece has arrived, and no other is in progress
     await route.continue()
   })
   await page.evaluate(() => (location.hash = '#/demo/recording/meteo'))
@@ -331,7 +331,7 @@ test('waits with its clock for frames that have not come', async () => {
   await page.waitForFunction((from) => window.signweaveStage.transport.time > from + 0.2, time)
 })
 
-test('keeps what is shown where the rest cannot be had, and tries again when asked', async () => {
+test('keeps what is loaded if the rest fails, and retries on request', async () => {
   await visit('')
   let pieces = 0
   await page.route(/recordings\/meteo\/motion/, (route) => (++pieces === 1 ? route.continue() : route.abort()))
@@ -345,7 +345,7 @@ test('keeps what is shown where the rest cannot be had, and tries again when ask
   await until(async () => assert.equal(await page.getByRole('alert').count(), 0))
 })
 
-test('goes from view to view without keeping their pictures, and gives the content the focus', async () => {
+test('switches between views without keeping their graphics, and focuses the content', async () => {
   await visit('#/demo/recording/meteo')
   await page.evaluate(() => (window.before = new WeakRef(window.signweaveStage)))
   for (let i = 0; i < 20; ++i) {
@@ -358,7 +358,7 @@ test('goes from view to view without keeping their pictures, and gives the conte
   await page.waitForFunction(() => window.signweaveStage === undefined)
 })
 
-test('fills the screen with what the recordings declare', async () => {
+test('fills the screen, with the recordings’ declarations', async () => {
   await visit('#/demo/recording/meteo?at=2.2')
   await page.keyboard.press('f')
   await page.waitForFunction(() => document.fullscreenElement?.matches('.player'))
@@ -367,24 +367,24 @@ test('fills the screen with what the recordings declare', async () => {
   await page.waitForFunction(() => !document.fullscreenElement)
 })
 
-test('lets keys that are characters be switched off', async () => {
+test('lets the user switch off character keys', async () => {
   await visit('#/demo/recording/meteo?at=2.2')
   await page.keyboard.press('?')
-  await page.getByLabel('Letters, digits and signs are keys').uncheck()
+  await page.getByLabel('Use letters, digits and symbols as shortcuts').uncheck()
   await page.keyboard.press('Escape')
   await page.keyboard.press('t')
   await until(async () => assert.equal(await button('Trails').getAttribute('aria-pressed'), 'false'))
   await page.evaluate(() => localStorage.removeItem('signweave.keys'))
 })
 
-/** Whether the linked video is where the motion is: it began 0.2 s before. */
+/** Whether the linked video is synchronized with the motion: it began 0.2 s earlier. */
 async function videoInStep() {
   await page.waitForFunction(() => document.querySelector('video')?.readyState >= 1)
   await page.evaluate(() => (window.signweaveStage.transport.seek(0.5), window.signweaveStage.touch()))
   await page.waitForFunction(() => Math.abs(document.querySelector('video').currentTime - 0.7) < 0.05)
 }
 
-test('keeps a linked video in step: chosen by hand, or sent by the server', async () => {
+test('synchronizes a linked video: chosen by hand, or sent by the server', async () => {
   await visit('#/demo/recording/villes')
   await until(async () => assert.equal(await page.getByText('villes.webm').count(), 1))
   const film = await smallVideo(page)
@@ -396,13 +396,13 @@ test('keeps a linked video in step: chosen by hand, or sent by the server', asyn
   await videoInStep()
 })
 
-test('helps, and gives the focus back', async () => {
+test('shows the help, and returns the focus', async () => {
   await visit('#/demo/recording/meteo')
   await button('Help').focus()
   await page.keyboard.press('?')
   await until(async () => assert.ok((await page.locator('dialog kbd').count()) > 20))
   await page.keyboard.press('Escape')
-  await page.waitForFunction(() => !document.querySelector('dialog')) // a dialog tells only later that it was closed
+  await page.waitForFunction(() => !document.querySelector('dialog')) // the close event of a dialog comes later
   await until(async () => assert.equal(await page.evaluate(() => document.activeElement.getAttribute('aria-label')), 'Help'))
 })
 

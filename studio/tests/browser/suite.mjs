@@ -1,4 +1,4 @@
-// What every browser test shares: one browser, one server with a demo corpus (and with an empty database beside it that tests may change), one page.
+// The fixtures shared by all browser tests: one browser, one server with a demo corpus (and an empty database that tests may change), one page.
 import { after, afterEach, test as run } from 'node:test'
 import { withBrowser } from './chromium.mjs'
 import { beginEvidence, inTime, leaveEvidence } from './evidence.mjs'
@@ -7,28 +7,28 @@ import { linkVideo, withServer } from './server.mjs'
 import { opened } from './waits.mjs'
 
 export const site = process.env.SITE
-if (!site) throw new Error('SITE names the folder of the built studio')
+if (!site) throw new Error('SITE must be the folder of the built studio')
 export const kDeclared = /placeholder shapes, not LSF/
-/** Where the server is, and the folder that it works in. */
+/** The server's address, and its working folder. */
 export let address, folder
 export let context
 /** The page that was visited last. */
 export let page
-/** What pages threw. */
+/** The errors thrown by pages. */
 export const faults = []
 
 let suite = ''
-/** The tests that follow are those of a suite. */
+/** The following tests belong to this suite. */
 export function begin(name) {
   suite = name
 }
 
-/** Also where everything is drawn by software on a busy machine. */
+/** Sufficient for software rendering on a busy machine. */
 const kSeconds = 240
-/** Only the tests of main paths are run. */
+/** Only the tests of main paths run. */
 const kMainOnly = process.env.SIGNWEAVE_MAIN === '1'
 
-/** Tests before which `ready` is called. A test that fails leaves evidence. With `main` it is of a main path. */
+/** Tests before which `ready` is called. A failing test leaves evidence. With `main`, it belongs to a main path. */
 export const testsWith =
   (ready, { main = false } = {}) =>
   (title, work) => {
@@ -63,26 +63,26 @@ after(() => held?.end())
 
 export const test = testsWith(studio)
 export const mainTest = testsWith(studio, { main: true })
-/** A test that needs neither, and is always run. */
+/** A test that needs neither, and always runs. */
 export const plainTest = testsWith(async () => {}, { main: true })
 
-// Colours and language that a test chose are not those of the next.
+// Theme and language set by one test do not affect the next.
 afterEach(() => page?.evaluate(() => (localStorage.removeItem('signweave.theme'), localStorage.removeItem('signweave.language'))).catch(() => {}))
 
 /**
- * Opens a page. What is not about characters is asked of the drawn body, which software draws quickly; null is what was chosen before. `still`: nothing
- * plays by itself.
+ * Opens a page. Unless characters are tested, the plain body is used, which software renders fast; null keeps the previous choice. `still`: nothing plays
+ * automatically.
  */
 export async function visit(hash, { size = { width: 1280, height: 720 }, whole = false, body = 'drawn', still = false } = {}) {
   await page?.close()
   page = await context.newPage()
-  // A frame of its own, such as a drawing, may have no storage.
+  // A nested frame, such as a drawing, may have no storage.
   if (body)
     await page.addInitScript((who) => {
       try {
         localStorage.setItem('signweave.body', who)
       } catch {
-        // It keeps nothing.
+        // It stores nothing.
       }
     }, body)
   page.on('pageerror', (error) => faults.push(error.message))

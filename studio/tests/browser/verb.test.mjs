@@ -14,7 +14,7 @@ const bin = process.env.SIGNWEAVE_BIN ?? resolve(import.meta.dirname, '../../../
 const characters = process.env.SIGNWEAVE_CHARACTERS ?? resolve(import.meta.dirname, '../../../build/characters')
 const run = promisify(execFile)
 
-/** The width and height that a PNG says it has. */
+/** Returns the width and height in a PNG's header. */
 function sizeOf(path) {
   const bytes = readFileSync(path)
   assert.equal(bytes.toString('latin1', 1, 4), 'PNG')
@@ -22,7 +22,7 @@ function sizeOf(path) {
 }
 
 let folder, held
-/** A database; nobody asks its server. */
+/** Creates a database; its server is not used. */
 async function started() {
   held ??= hold((work) => withServer(site, (_, made) => work(made)))
   ;[folder] = await held.given
@@ -32,7 +32,7 @@ const test = testsWith(started)
 
 const render = (...words) => run(join(bin, 'signweave'), ['render', join(folder, 'demo.db'), ...words, '--studio', site, '--json'])
 
-test('a film has every picture', async () => {
+test('a video contains every frame', async () => {
   const film = join(folder, 'film.webm')
   const { stdout, stderr } = await render('--recording', 'meteo', '--from', '2000', '--to', '3000', '-o', film, '--size', '320x180', '--rate', '25')
   const said = JSON.parse(stdout)
@@ -43,7 +43,7 @@ test('a film has every picture', async () => {
   assert.match(stderr, /placeholder shapes, not LSF/)
 })
 
-test('pictures of moments, on a character', async () => {
+test('images of moments, with a character', async () => {
   const { stdout } = await render(
     'VANNES MATIN',
     '-o',
@@ -62,14 +62,14 @@ test('pictures of moments, on a character', async () => {
   assert.notDeepEqual(readFileSync(join(folder, 'p-00001.png')), readFileSync(join(folder, 'p-00002.png')))
 })
 
-test('a junction is made as it is told', async () => {
+test('a junction is generated as specified', async () => {
   const frames = async (junction) =>
     JSON.parse((await render('VANNES MATIN', '--junction', junction, '-o', join(folder, 'j.webm'), '--size', '160x90', '--rate', '10')).stdout).frames
   const more = (await frames('1=quintic,1200ms')) - (await frames('1=300ms'))
   assert.ok(more >= 8 && more <= 10, `${more} frames more for 900 ms`)
 })
 
-test('a gloss that is not there is one line, and no file', async () => {
+test('an unknown gloss gives a one-line message, and no file', async () => {
   await assert.rejects(render('VANES', '-o', join(folder, 'none.webm')), (fault) => {
     assert.equal(fault.code, 1)
     assert.match(fault.stderr, /^signweave: .*no sign 'VANES' in this database; did you mean VANNES/m)

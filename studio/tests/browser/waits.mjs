@@ -1,4 +1,4 @@
-/** Until the view of an address is there: for the player until it draws its signers, and with `whole` until all frames have come. */
+/** Waits until the view of an address is there: for the player until it draws its signers, and with `whole` until all frames have arrived. */
 export async function opened(page, hash, whole = false) {
   if (!/\/(recording|edit|sign)\//.test(hash)) {
     await page.waitForFunction(() => document.querySelector('main table, main form, main [data-ready], [role=alert]'))
@@ -19,8 +19,8 @@ export async function opened(page, hash, whole = false) {
 }
 
 /**
- * Until a live stream has signed a gloss, and the player names it where it was signed. A slow page may have drawn no picture of it
- * meanwhile, so this goes back to its first frame, and on again.
+ * Waits until a live stream has signed a gloss, and the player names it where it was signed. A slow page may have drawn no frame of it meanwhile, so this seeks
+ * to its first frame, and back.
  */
 export async function signedLive(page, gloss) {
   await page.waitForFunction((wanted) => {
@@ -43,11 +43,11 @@ export async function signedLive(page, gloss) {
 }
 
 /**
- * Until what was asked for is on the screen: the frames have come, the camera rests, and what does not play is drawn no more. However long one picture
- * takes.
+ * Waits until the requested picture is on the screen: the frames have arrived, the camera is at rest, and a paused view is no longer redrawn. However long one
+ * frame takes.
  */
 export async function drawn(page) {
-  // Not waitForFunction, which asks once where the answer is a promise, and takes any.
+  // Not waitForFunction, which evaluates a promise only once, and accepts any.
   await page.evaluate(async () => {
     const pictures = async (count) => {
       for (let i = 0; i < count; ++i) await new Promise(requestAnimationFrame)
@@ -57,7 +57,7 @@ export async function drawn(page) {
       const stage = window.signweaveStage
       if (!stage || stage.transport.playing) return
       if (!stage.still) continue
-      // A pixel can be read when all that the graphics card was asked for, here software, is done; then the browser shows it.
+      // A pixel can be read when the graphics card (here software) has finished all work; then the browser shows it.
       const before = stage.pictures,
         gl = stage.renderer.getContext()
       gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4))
@@ -67,7 +67,7 @@ export async function drawn(page) {
   })
 }
 
-/** Until `check` throws nothing. It is tried again and again for so many seconds; then what it threw last is thrown. */
+/** Waits until `check` no longer throws. It is retried for the given seconds; then its last error is thrown. */
 export async function until(check, seconds = 30) {
   for (const end = performance.now() + 1000 * seconds; ;) {
     try {
@@ -79,7 +79,7 @@ export async function until(check, seconds = 30) {
   }
 }
 
-/** Until a page has drawn so many frames: what would happen in them has happened. */
+/** Waits until a page has drawn the given number of frames: anything due in them has happened. */
 export const frames = (page, count = 20) =>
   page.evaluate(async (n) => {
     for (let i = 0; i < n; ++i) await new Promise(requestAnimationFrame)

@@ -1,4 +1,4 @@
-// What no linter looks at, of the whole tree: check.mjs [FOLDER]. One line a fault.
+// Checks of the whole tree beyond linters: check.mjs [FOLDER]. One line per fault.
 import { resolve } from 'node:path'
 import { filesBelow } from './files.mjs'
 import { importCircles, importGraph } from './imports.mjs'

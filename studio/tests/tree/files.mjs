@@ -3,7 +3,7 @@ import { join, relative } from 'node:path'
 
 const kNotOurs = new Set(['node_modules', 'dist'])
 
-/** Every file below `root` that people write, with its text. Paths are relative to `root`, in the order of the alphabet. */
+/** Returns every hand-written file below `root`, with its text. Paths are relative to `root`, in alphabetical order. */
 export function filesBelow(root) {
   const found = []
   const walk = (folder) => {

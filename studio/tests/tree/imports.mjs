@@ -2,10 +2,10 @@ import { posix } from 'node:path'
 import ts from 'typescript'
 
 const kCode = /\.(ts|js|mjs|svelte)$/
-/** What may be left out of the name of a file that is imported; `./x.svelte` may also be `./x.svelte.ts`. */
+/** The parts of an imported file's name that may be omitted; `./x.svelte` may also be `./x.svelte.ts`. */
 const kEndings = ['', '.ts', '.js', '.mjs']
 
-/** What a file imports of its own tree: types, values and what is fetched later alike. */
+/** Returns a file's imports within the tree: types, values and dynamic imports. */
 function importsOf({ path, text }) {
   const code = path.endsWith('.svelte') ? [...text.matchAll(/<script[^>]*>(.*?)<\/script>/gs)].map(([, script]) => script).join('\n') : text
   return ts
@@ -16,7 +16,7 @@ function importsOf({ path, text }) {
     .filter((name) => !name.startsWith('..'))
 }
 
-/** For each file of code the files that it imports; those that are not there are faults. */
+/** Returns the imported files of each code file; missing files are faults. */
 export function importGraph(files) {
   const known = new Set(files.map(({ path }) => path))
   const graph = new Map()
@@ -26,20 +26,20 @@ export function importGraph(files) {
     for (const wanted of importsOf(file)) {
       const found = kEndings.map((ending) => wanted + ending).find((path) => known.has(path))
       if (found) imports.add(found)
-      else faults.push(`${file.path} imports ${wanted}, which is not there`)
+      else faults.push(`${file.path} imports ${wanted}, which does not exist`)
     }
     graph.set(file.path, [...imports])
   }
   return { graph, faults }
 }
 
-/** Circles of imports, one fault each: every file is looked at once, with those that led to it. */
+/** Returns import cycles, one fault each: every file is visited once, with the path that led to it. */
 export function importCircles(graph) {
   const faults = []
   const done = new Set()
   const trail = []
   const visit = (path) => {
-    if (trail.includes(path)) faults.push(`circle of imports: ${[...trail.slice(trail.indexOf(path)), path].join(' -> ')}`)
+    if (trail.includes(path)) faults.push(`import cycle: ${[...trail.slice(trail.indexOf(path)), path].join(' -> ')}`)
     else if (!done.has(path)) {
       trail.push(path)
       for (const next of graph.get(path) ?? []) visit(next)

@@ -1,8 +1,8 @@
 const kMost = 160
-/** What cannot be broken: addresses, and the outlines of drawings. */
+/** Content that cannot be wrapped: addresses, and SVG paths. */
 const kWhole = /https?:\/\/[^\s"'<>)]+|\bd="[^"]*"/g
 
-/** Lines that are too long, one fault each. */
+/** Returns the lines that are too long, one fault each. */
 export function longLines(files) {
   return files.flatMap(({ path, text }) =>
     text.split('\n').flatMap((line, i) => {

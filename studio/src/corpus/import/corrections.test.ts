@@ -1,5 +1,5 @@
 import { expect, it } from 'vitest'
-import { fits, grouped, isRight, kNone, kSettings, mendOf, parametersOf, readingOf, readRig, rigText, type Corrections } from './corrections'
+import { choicesOf, fits, grouped, isRight, kNone, kSettings, fixOf, parametersOf, readingOf, readRig, rigText, type Corrections } from './corrections'
 
 const setting = (name: string) => kSettings.find((one) => one.name === name)!
 
@@ -74,7 +74,17 @@ it('reads mapping files as they are written', () => {
   expect(readRig(rigText({ left_hand: 'LeftHand', jaw: '' }))).toEqual({ left_hand: 'LeftHand', jaw: '' })
 })
 
-it('takes what the server says would mend it', () => {
-  expect(mendOf('the root looks permuted: --root-order rotation_first --root-unit m would mend it')).toEqual({ root_order: 'rotation_first', root_unit: 'm' })
-  expect([mendOf('--up overrides'), mendOf('--sign-tier X would mend it')]).toEqual([undefined, undefined])
+it('takes the values of remedies that can be set here', () => {
+  const rotation = [
+    { parameter: 'root_order', value: 'rotation_first' },
+    { parameter: 'root_unit', value: 'm' },
+  ]
+  expect(fixOf(rotation)).toEqual({ root_order: 'rotation_first', root_unit: 'm' })
+  expect(fixOf([{ parameter: 'replace_motion', value: 'true' }])).toEqual({ replace_motion: 'yes' })
+  expect([fixOf(undefined), fixOf([{ parameter: 'up' }]), fixOf([{ parameter: 'if_annotation', value: 'none' }])]).toEqual([undefined, undefined, undefined])
+})
+
+it('names the settings that the user has to choose', () => {
+  expect(choicesOf([{ parameter: 'unit' }, { parameter: 'up' }, { parameter: 'rig' }, { parameter: 'take', value: '2' }])).toEqual(['up', 'unit'])
+  expect(choicesOf(undefined)).toEqual([])
 })

@@ -1,4 +1,5 @@
 import type { HandName, TierReport } from '../../api/corpus_answers'
+import type { Remedy } from '../../api/fault'
 
 /** What an import can be told of how files are to be read, as `signweave import` calls it. */
 export interface Setting {
@@ -126,12 +127,16 @@ export function readRig(text: string): Readonly<Record<string, string>> {
   return rig
 }
 
-/** The settings that a notice of the server says would mend what it found; none where it names none. */
-export function mendOf(notice: string): Readonly<Partial<Record<SettingName, string>>> | undefined {
-  const options = /((?:--[a-z-]+ \S+ )+)would mend it/.exec(notice)?.[1]
-  if (!options) return undefined
-  const found = [...options.matchAll(/--([a-z-]+) (\S+)/g)].map(([, name, value]) => [name.replaceAll('-', '_'), value])
-  return found.every(([name]) => kSettings.some((setting) => setting.name === name)) ? Object.fromEntries(found) : undefined
+/** The settings that fix what a notice or a fault reports, by the values of its remedies; undefined if it has none that can be set here. */
+export function fixOf(remedies: readonly Remedy[] | undefined): Readonly<Partial<Record<SettingName, string>>> | undefined {
+  const found = (remedies ?? []).flatMap(({ parameter, value }) => (value ? [[parameter, value === 'true' ? 'yes' : value] as const] : []))
+  if (found.length === 0 || !found.every(([name]) => kSettings.some((setting) => setting.name === name))) return undefined
+  return Object.fromEntries(found)
+}
+
+/** The settings that a user has to choose to fix what a notice or a fault reports. */
+export function choicesOf(remedies: readonly Remedy[] | undefined): readonly SettingName[] {
+  return kSettings.filter(({ name }) => remedies?.some(({ parameter, value }) => parameter === name && !value)).map(({ name }) => name)
 }
 
 /** What goes into one call: recordings that are told the same. */

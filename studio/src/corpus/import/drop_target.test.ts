@@ -9,15 +9,15 @@ const row = (name: string, writable: boolean, placeholder = false): DatabaseRow 
   declarations: placeholder ? { 'signweave:placeholder': 'no signs' } : {},
 })
 
-describe('files that are dropped', () => {
-  it('go to the database of the page', () => {
+describe('dropped files', () => {
+  it('are imported into the database of the page', () => {
     expect(dropTarget(false, [row('a', true), row('b', true)], 'b')).toEqual({ database: 'b' })
   })
-  it('go, where no database is chosen, to one that is no demo if there is one', () => {
+  it('are imported, if no database is selected, into one that is not a demo if possible', () => {
     expect(dropTarget(false, [row('demo', true, true), row('read', false), row('mine', true)], undefined)).toEqual({ database: 'mine' })
     expect(dropTarget(false, [row('read', false), row('demo', true, true)], undefined)).toEqual({ database: 'demo' })
   })
-  it('are not taken where nothing can be stored, and it is said why', () => {
+  it('are rejected with a reason if nothing can be stored', () => {
     expect(dropTarget(true, [row('a', true)], 'a')).toEqual({ why: 'locked' })
     expect(dropTarget(false, undefined, 'a')).toEqual({ why: 'unknown' })
     expect(dropTarget(false, [], undefined)).toEqual({ why: 'noDatabase' })

@@ -1,18 +1,18 @@
 import type { DatabaseRow } from '../../api/answers'
 import { isPlaceholder } from '../../motion/declarations'
 
-/** Why files that are dropped are not taken. */
+/** Reasons why dropped files are rejected. */
 export type NotTaken = 'locked' | 'unknown' | 'noDatabase' | 'readOnly' | 'allReadOnly' | 'dialog' | 'busy'
-/** The database that dropped files are imported into; or why there is none, and which one is meant. */
+/** The database into which dropped files are imported; or the reason why there is none, and the database concerned. */
 export type DropTarget = { readonly database: string; readonly why?: undefined } | { readonly why: NotTaken; readonly database?: string }
 
-/** Where somebody's own files belong where no database is chosen: not beside placeholders, if that can be helped. */
+/** Returns the database for the user's own files if none is chosen: preferably one without placeholder recordings. */
 export function ownDatabase(databases: readonly DatabaseRow[]): DatabaseRow | undefined {
   const writable = databases.filter((one) => one.writable)
   return writable.find(({ declarations }) => !isPlaceholder(declarations)) ?? writable[0]
 }
 
-/** `databases` are those that are served, where that is known; `database` is the one that the page is about, if it is about one. */
+/** `databases` are those that are served, if known; `database` is that of the page, if it has one. */
 export function dropTarget(locked: boolean, databases: readonly DatabaseRow[] | undefined, database: string | undefined): DropTarget {
   if (locked) return { why: 'locked' }
   if (!databases) return { why: 'unknown' }

@@ -2,7 +2,7 @@ import { expect, it } from 'vitest'
 import { chosen, dropped } from './dropped'
 
 const fileEntry = (name: string) => ({ isFile: true, name, file: (take: (file: File) => void) => take(new File(['x'], name)) })
-/** A folder's reader gives a hundred entries at once, as browsers do. */
+/** A folder's reader returns a hundred entries per call, as in browsers. */
 const folderEntry = (name: string, entries: readonly unknown[]) => ({
   isFile: false,
   name,
@@ -13,7 +13,7 @@ const folderEntry = (name: string, entries: readonly unknown[]) => ({
 })
 const item = (entry: unknown) => ({ kind: 'file', webkitGetAsEntry: () => entry, getAsFile: () => new File(['x'], 'plain.bvh') })
 
-it('takes files and folders with all that is in them, however many', async () => {
+it('returns files and the contents of folders of any size', async () => {
   const many = Array.from({ length: 250 }, (_, k) => fileEntry(`${k}.bvh`))
   const transfer = {
     items: [item(fileEntry('a.bvh')), item(folderEntry('day', [...many, folderEntry('two', [fileEntry('b.eaf')])])), item(null), { kind: 'string' }],
@@ -27,7 +27,7 @@ it('takes files and folders with all that is in them, however many', async () =>
   ])
 })
 
-it('takes the folders that an input tells', () => {
+it('returns the folders of an input', () => {
   const file = Object.assign(new File(['x'], 'a.bvh'), { webkitRelativePath: 'days/one/a.bvh' })
   expect(chosen([file])[0].folder).toBe('days/one')
 })

@@ -1,6 +1,6 @@
 import type { Picked } from './file_list'
 
-/** Everything in what was dropped, folders with all that is in them. To be called in the event itself: its items are gone afterwards. */
+/** Returns all dropped files, with the contents of folders. Must be called within the event itself: its items are gone afterwards. */
 export function dropped(transfer: DataTransfer): Promise<readonly Picked[]> {
   const entries = [...transfer.items].flatMap((item) => (item.kind === 'file' ? [item.webkitGetAsEntry?.() ?? item.getAsFile()] : []))
   return Promise.all(
@@ -11,7 +11,7 @@ export function dropped(transfer: DataTransfer): Promise<readonly Picked[]> {
   ).then((lists) => lists.flat())
 }
 
-/** Files of an input, which tells folders where it was asked for one. */
+/** Returns the files of an input, with their folders if the input selects a folder. */
 export function chosen(files: Iterable<File>): readonly Picked[] {
   return [...files].map((file) => ({ file, folder: file.webkitRelativePath.split('/').slice(0, -1).join('/') }))
 }
@@ -24,7 +24,7 @@ async function walked(entry: FileSystemEntry, folder: string): Promise<readonly 
   const reader = (entry as FileSystemDirectoryEntry).createReader()
   const within = folder ? `${folder}/${entry.name}` : entry.name
   const found: Picked[] = []
-  // Browsers give a folder's entries by the hundred, until they give none.
+  // Browsers return a folder's entries by the hundred, until a call returns none.
   for (;;) {
     const some = await new Promise<FileSystemEntry[]>((resolve, reject) => reader.readEntries(resolve, reject))
     if (some.length === 0) return found

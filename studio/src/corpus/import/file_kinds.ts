@@ -1,6 +1,6 @@
 import type { FormatRow } from '../../api/corpus_answers'
 
-/** What a file is to an import. A companion is read with another file; a table of pairs and a mapping file are read here, and not sent. */
+/** The role of a file in an import. A companion is read together with another file; a table of pairs and a mapping file are read here, and not sent. */
 export type FileKind = 'motion' | 'skeleton' | 'annotation' | 'face' | 'companion' | 'pairs' | 'rig'
 /** Why a file cannot be sent. */
 export type Refusal = 'ending' | 'film' | 'name'
@@ -16,11 +16,11 @@ const kKinds: Readonly<Record<string, FileKind>> = {
   '.anvil': 'annotation',
   '.face.csv': 'face',
 }
-/** Files that another one names: buffers of glTF, specifications of ANVIL. */
+/** Files referenced by others: buffers of glTF, specifications of ANVIL. */
 const kCompanions: Readonly<Record<string, string>> = { '.bin': '.gltf', '.xml': '.anvil' }
 const kFilms = /\.(mp4|m4v|mov|avi|mpe?g|mkv|webm|wav|mp3)$/i
 
-/** The ending that the server knows and that fits best: `.face.csv` before `.csv`. A hidden file has none. */
+/** Returns the longest extension that the server knows: `.face.csv` before `.csv`. A hidden file has none. */
 export function endingOf(name: string, formats: readonly FormatRow[]): FormatRow | undefined {
   const lower = name.toLowerCase()
   let best: FormatRow | undefined
@@ -30,18 +30,18 @@ export function endingOf(name: string, formats: readonly FormatRow[]): FormatRow
   return best
 }
 
-/** What a recording made of this file is called: its name without the ending. */
+/** Returns the name of the recording built from this file: the file name without the extension. */
 export function stemOf(name: string, formats: readonly FormatRow[]): string {
   const format = endingOf(name, formats)
   return format ? name.slice(0, -format.ending.length) : name.replace(/\.[^.]*$/, '')
 }
 
-/** The endings that can be imported, as a file dialog takes them. */
+/** Returns the extensions that can be imported, for a file dialog. */
 export function readableEndings(formats: readonly FormatRow[]): readonly string[] {
   return formats.filter(({ reads }) => reads).map(({ ending }) => ending)
 }
 
-/** What a file is, or why it cannot be sent. `names` are those of all files, for some are read with others. */
+/** Returns the kind of a file, or why it cannot be sent. `names` are those of all files, because some are read together. */
 export function kindOf(name: string, formats: readonly FormatRow[], names: readonly string[]): FileKind | Refusal {
   if (!isPlain(name)) return 'name'
   const format = endingOf(name, formats)
@@ -58,8 +58,8 @@ export function kindOf(name: string, formats: readonly FormatRow[], names: reado
 
 export const isRefusal = (kind: FileKind | Refusal): kind is Refusal => kind === 'ending' || kind === 'film' || kind === 'name'
 
-/** As the server has it for files of an upload: no folders, no ':', no leading dot, at most 200 bytes. */
+/** The server's rule for uploaded files: no folders, no ':', no leading dot, at most 200 bytes. */
 export function isPlain(name: string): boolean {
-  // eslint-disable-next-line no-control-regex -- control characters are what is looked for
+  // eslint-disable-next-line no-control-regex -- control characters are what the pattern rejects
   return name !== '' && new TextEncoder().encode(name).length <= 200 && !/^\.|[/\\:\u0000-\u001f\u007f]/.test(name)
 }

@@ -8,7 +8,7 @@ const kFormats = [row('.bvh', true), row('.gltf', true), row('.eaf', true), row(
 const picked = (path: string, text = 'x') => ({ file: new File([text], path.split('/').at(-1)!), folder: path.split('/').slice(0, -1).join('/') })
 const names = (list: { files: readonly { name: string }[] }) => list.files.map(({ name }) => name)
 
-it('tells what files are, and refuses what the server cannot read', () => {
+it('determines the kinds of files, and rejects those that the server cannot read', () => {
   const all = ['walk.bvh', 'walk.gltf', 'walk.bin']
   const kinds = ['walk.BVH', 'walk.eaf', 'walk.face.csv', 'pairs.csv', 'map.rig', 'walk.bin', 'x.xml', 'walk.mp4', 'walk.txt', '.bvh', 'a:b.bvh', 'walk.svg']
   expect(kinds.map((name) => kindOf(name, kFormats, all))).toEqual([
@@ -31,7 +31,7 @@ it('tells what files are, and refuses what the server cannot read', () => {
   expect(readableEndings(kFormats)).toEqual(['.bvh', '.gltf', '.eaf', '.anvil', '.face.csv'])
 })
 
-it('takes files once, and leaves hidden files of folders out', () => {
+it('adds files once, and skips hidden files in folders', () => {
   const once = added(kNoFiles, [picked('day/a.bvh'), picked('day/.DS_Store'), picked('b.eaf')], kFormats)
   const twice = added(once, [picked('day/a.bvh', 'longer')], kFormats)
   expect(names(twice)).toEqual(['b.eaf', 'a.bvh'])
@@ -39,7 +39,7 @@ it('takes files once, and leaves hidden files of folders out', () => {
   expect(names(without(twice, [twice.files[1].id], kFormats))).toEqual(['b.eaf'])
 })
 
-it('sends no two files of one name, until their folders are put in front', () => {
+it('sends no two files of one name, unless prefixed with their folders', () => {
   const list = added(
     kNoFiles,
     ['one/a.bvh', 'one/a.eaf', 'two/a.bvh', 'two/b.bvh', 'c.bvh'].map((path) => picked(path)),
@@ -50,7 +50,7 @@ it('sends no two files of one name, until their folders are put in front', () =>
   const renamed = withFolderNames(list, kFormats)
   expect(names(renamed)).toEqual(['c.bvh', 'one_a.bvh', 'one_a.eaf', 'b.bvh', 'two_a.bvh'])
   expect(renamed.files.some(({ clash }) => clash)).toBe(false)
-  // What lies in no folder keeps its name.
+  // A file without a folder keeps its name.
   const root = withFolderNames(added(kNoFiles, [picked('a.bvh'), picked('one/a.bvh')], kFormats), kFormats)
   expect(names(root)).toEqual(['a.bvh', 'one_a.bvh'])
 })

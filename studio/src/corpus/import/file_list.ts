@@ -1,12 +1,12 @@
 import type { FormatRow } from '../../api/corpus_answers'
 import { isRefusal, kindOf, stemOf, type FileKind, type Refusal } from './file_kinds'
 
-/** A file that was chosen, and the folders that it lay in, with `/` between them. */
+/** A chosen file, and its folders, separated by `/`. */
 export interface Picked {
   readonly file: File
   readonly folder: string
 }
-/** A file of the list. `name` is what it is sent under. */
+/** A file of the list. `name` is the name under which it is sent. */
 export interface Listed extends Picked {
   readonly id: number
   readonly name: string
@@ -17,42 +17,45 @@ export interface Listed extends Picked {
 export interface FileList {
   readonly files: readonly Listed[]
   readonly next: number
-  /** Hidden files of folders that were left out. */ readonly hidden: number
+  /** The number of hidden files in folders that were skipped. */ readonly hidden: number
 }
 
 export const kNoFiles: FileList = { files: [], next: 1, hidden: 0 }
 
-/** With more files. What comes again from the same folder takes the place of what was there; hidden files of folders are left out. */
+/** Adds files. A file chosen again from the same folder replaces the previous one; hidden files in folders are skipped. */
 export function added(list: FileList, more: readonly Picked[], formats: readonly FormatRow[]): FileList {
   const seen = more.filter(({ file, folder }) => !(folder && file.name.startsWith('.')))
   const again = (one: Picked) => seen.some(({ file, folder }) => folder === one.folder && file.name === one.file.name)
   let { next } = list
   const fresh = seen.map((one) => ({ ...one, id: next++, name: one.file.name }))
-  return told({ files: [...list.files.filter((one) => !again(one)), ...fresh], next, hidden: list.hidden + more.length - seen.length }, formats)
+  return classified({ files: [...list.files.filter((one) => !again(one)), ...fresh], next, hidden: list.hidden + more.length - seen.length }, formats)
 }
 
 export function without(list: FileList, ids: readonly number[], formats: readonly FormatRow[]): FileList {
-  return told({ ...list, files: list.files.filter(({ id }) => !ids.includes(id)) }, formats)
+  return classified({ ...list, files: list.files.filter(({ id }) => !ids.includes(id)) }, formats)
 }
 
-/** Files whose names clash get their folder's name in front, and with them what has the same stem beside them: they belong together. */
+/** Prefixes clashing file names with their folder's name, and also files with the same stem in the same folder, because they belong together. */
 export function withFolderNames(list: FileList, formats: readonly FormatRow[]): FileList {
   const stems = new Set(list.files.filter(({ clash }) => clash).map(({ name }) => stemOf(name, formats)))
   const renamed = list.files.map((one) => {
     if (!one.folder || !stems.has(stemOf(one.name, formats)) || one.name !== one.file.name) return one
     return { ...one, name: `${one.folder.replaceAll('/', '_')}_${one.file.name}` }
   })
-  return told({ ...list, files: renamed }, formats)
+  return classified({ ...list, files: renamed }, formats)
 }
 
-/** Those that are sent. */
+/** Returns the files to send. */
 export function sendable(list: FileList): readonly Listed[] {
   return list.files.filter(({ kind, clash }) => !isRefusal(kind) && !clash && kind !== 'pairs' && kind !== 'rig')
 }
 export const bytesOf = (files: readonly Listed[]) => files.reduce((sum, { file }) => sum + file.size, 0)
 
-type Untold = Omit<Listed, 'kind' | 'clash'>
-function told(list: { readonly files: readonly Untold[]; readonly next: number; readonly hidden: number }, formats: readonly FormatRow[]): FileList {
+type Unclassified = Omit<Listed, 'kind' | 'clash'>
+function classified(
+  list: { readonly files: readonly Unclassified[]; readonly next: number; readonly hidden: number },
+  formats: readonly FormatRow[],
+): FileList {
   const names = list.files.map(({ name }) => name)
   const counts = new Map<string, number>()
   for (const name of names) counts.set(name, (counts.get(name) ?? 0) + 1)

@@ -14,29 +14,29 @@ import { UploadJobs, type Doing } from './upload_jobs'
 
 const kParts: readonly FilePart[] = ['motion', 'annotation', 'face']
 const kTable = 'pairs.csv'
-/** After a correction, ms until the report is made anew: several go together. */
+/** The delay in ms from a correction until the report is regenerated, so that several corrections are combined. */
 const kSettle = 700
 
-/** One import from choosing files to what became of them. It outlives the page, so that nothing is lost where somebody looks at something else. */
+/** One import, from choosing files to the outcome. It outlives the page, so that nothing is lost when the user looks at something else. */
 export class ImportSession {
   formats = $state.raw<readonly FormatRow[]>([])
   writable = $state<boolean | undefined>()
   list = $state.raw<FileList>(kNoFiles)
   readonly sender: Sender
   doing = $state.raw<Doing | undefined>()
-  /** What went wrong last with all of it, and how that is tried again. */
+  /** The last general fault, and how to retry. */
   fault = $state.raw<unknown>()
   retry?: () => void
-  /** Files came or were to go while something was under way: that was not done. */
+  /** Files were added or removed while a job was running; the change was rejected. */
   turnedAway = $state(false)
   reports = $state.raw<readonly Inspected[]>([])
   notices = $state.raw<readonly Notice[]>([])
   faults = $state.raw<readonly string[]>([])
-  /** What the server said of a recording's corrections, where it did not take them. */
+  /** The server's message for recordings whose corrections it rejected. */
   refused = $state.raw<ReadonlyMap<string, unknown>>(new Map())
-  /** Recordings whose report is from before what was corrected. */
+  /** Recordings whose report is older than their corrections. */
   stale = $state.raw<ReadonlySet<string>>(new Set())
-  /** Which files belong together where somebody said so. */
+  /** How files belong together, if the user specified it. */
   pairs = $state.raw<readonly Pair[] | undefined>()
   tableFaults = $state.raw<readonly TableFault[]>([])
   all = $state.raw<Corrections>(kNone)
@@ -45,7 +45,7 @@ export class ImportSession {
   left = $state.raw<ReadonlySet<string>>(new Set())
   outcomes = $state.raw<ReadonlyMap<string, Imported>>(new Map())
   onimported?: () => void
-  /** Files that came before it was known what the server can read. */
+  /** Files added before the readable formats were known. */
   private early: readonly Picked[] = []
   private readonly jobs: UploadJobs
   private settling = $state.raw<ReturnType<typeof setTimeout>>()
@@ -60,7 +60,7 @@ export class ImportSession {
     void this.begin()
   }
 
-  /** Asks what the server can read, and whether it may be given anything. */
+  /** Loads the formats that the server can read, and whether the database is writable. */
   async begin(): Promise<void> {
     this.fault = undefined
     try {
@@ -77,19 +77,19 @@ export class ImportSession {
     this.retry = retry
   }
 
-  /** Whether files are being sent, looked at or stored. */
+  /** Whether files are being sent, inspected or stored. */
   get busy(): boolean {
     return this.sender.busy || this.doing !== undefined
   }
-  /** Recordings that were corrected while nobody looks at them, nor is about to. */
+  /** Recordings that were corrected and whose inspection is neither running nor scheduled. */
   get unlooked(): readonly string[] {
     return this.busy || this.settling !== undefined ? [] : [...this.stale]
   }
-  /** The names of the files that can be a part of a recording. */
+  /** Returns the names of the files that can be a part of a recording. */
   filesOf(part: FilePart): readonly string[] {
     return this.list.files.filter(({ kind, clash }) => kind === part && !clash).map(({ name }) => name)
   }
-  /** The recordings that are to be imported and are not there yet, but for those whose corrections are not taken. */
+  /** The recordings to import that are not stored yet, except those whose corrections are rejected. */
   get wanted(): readonly Inspected[] {
     return this.reports.filter((one) => {
       const key = keyOf(one.files)
@@ -100,7 +100,7 @@ export class ImportSession {
     const outcome = this.outcomes.get(key)?.outcome
     return outcome !== undefined && outcome !== 'failed'
   }
-  /** Files of recordings that are in none, where somebody said which belong together. */
+  /** Files that belong to no recording, if the user specified how files belong together. */
   get unused(): readonly string[] {
     const used = new Set(this.pairs?.flatMap(({ motion, annotation, face }) => [motion, annotation, face]))
     return this.pairs ? kParts.flatMap((part) => this.filesOf(part)).filter((name) => !used.has(name)) : []
@@ -115,18 +115,18 @@ export class ImportSession {
       return
     }
     if (this.isTurnedAway()) return
-    // What was stored is over: more files are another import.
+    // A completed import is over: more files start another import.
     if (this.outcomes.size > 0 && this.wanted.length === 0) this.clear()
     this.change(added(this.list, more, this.formats))
     await this.readTables()
   }
-  /** Takes files out. Reports of recordings that had one are made anew, the others stay. */
+  /** Removes files. Reports of recordings that contained one are regenerated; the others stay. */
   remove(ids: readonly number[]): void {
     if (this.isTurnedAway()) return
     const gone = this.list.files.filter(({ id }) => ids.includes(id))
     const list = without(this.list, ids, this.formats)
     const isPart = (kind: string) => kParts.some((part) => part === kind)
-    // Of what is read with others, or was kept back, nobody knows which reports it is about.
+    // For a companion file or a clashing name it is unknown which reports are affected.
     if (this.reports.length === 0 || gone.some(({ kind, clash }) => clash || !(isRefusal(kind) || isPart(kind)))) return this.change(list)
     const before = this.table()
     this.list = list
@@ -137,11 +137,11 @@ export class ImportSession {
     if (this.isTurnedAway()) return
     this.change(withFolderNames(this.list, this.formats))
   }
-  /** What is under way is of the files that there are: others wait until it is over. */
+  /** A running job refers to the current files, so changes are rejected until it is over. */
   private isTurnedAway(): boolean {
     return (this.turnedAway = this.busy)
   }
-  /** Begins anew, without anything. */
+  /** Starts again, with nothing. */
   clear(): void {
     this.unsettle()
     this.sender.forget()
@@ -156,7 +156,7 @@ export class ImportSession {
     this.turnedAway = false
   }
 
-  /** Sends what was not sent, and looks at all of it. */
+  /** Sends files not sent yet, and inspects all of them. */
   async send(again = false): Promise<void> {
     this.fault = undefined
     this.turnedAway = false
@@ -185,20 +185,20 @@ export class ImportSession {
     this.own = new Map(this.own).set(key, corrections)
     this.touched([key])
   }
-  /** Another file as a part of a recording, or none. */
+  /** Sets another file as a part of a recording; null removes it. */
   pair(key: string, part: FilePart, file: string | null): void {
     const before = this.table()
     const after = paired(before, key, part, file, this.stemOf)
     if (after !== before) this.repair(before, after)
   }
   private repair(before: readonly Pair[], after: readonly Pair[]): void {
-    const told = new Set(before.map((one) => JSON.stringify(one))),
+    const unchanged = new Set(before.map((one) => JSON.stringify(one))),
       here = new Set(after.map(keyOf))
     this.pairs = after
     const over = this.reports.map(({ files }) => keyOf(files)).filter((key) => !here.has(key))
-    this.touched([...over, ...after.filter((one) => !told.has(JSON.stringify(one))).map(keyOf)])
+    this.touched([...over, ...after.filter((one) => !unchanged.has(JSON.stringify(one))).map(keyOf)])
   }
-  /** The keys of recordings that there still are, as somebody said which files belong together. */
+  /** Returns the keys of recordings that still exist in the user's pairs. */
   private present(keys: Iterable<string>): readonly string[] {
     if (!this.pairs) return [...keys]
     const here = new Set(this.pairs.map(keyOf))
@@ -219,18 +219,18 @@ export class ImportSession {
     this.left = left
   }
 
-  /** For whoever leaves the page: the upload of an import that is over has only what was left out. */
+  /** Called when the user leaves the page: the upload of a completed import contains only recordings that were left out. */
   leave(): void {
     if (!this.busy && this.outcomes.size > 0 && this.wanted.length === 0 && this.reports.some(({ files }) => !this.isStored(keyOf(files)))) this.sender.forget()
   }
-  /** Where the window goes, what is not being imported is given up. */
+  /** Called when the window closes: everything except a running import is cancelled. */
   close(): void {
     if (this.doing?.what === 'import') return
     this.jobs.cancel().catch(() => {})
     this.sender.forget()
   }
 
-  /** Makes the reports anew: of some recordings, or of all. */
+  /** Regenerates the reports of some recordings, or of all. */
   async inspect(keys?: readonly string[]): Promise<void> {
     if (this.doing) return
     this.unsettle()
@@ -238,7 +238,7 @@ export class ImportSession {
     const isSame = this.revisions.mark()
     const groups = keys ? this.groups(this.present(keys)) : [{ keys: [], body: {}, rig: '' }]
     for (const [at, group] of groups.entries()) {
-      // What was corrected meanwhile is looked at afterwards.
+      // Recordings corrected meanwhile are inspected afterwards.
       const now = group.keys.filter(isSame)
       if (keys && now.length === 0) continue
       this.doing = { what: 'inspect', part: at / groups.length }
@@ -260,20 +260,20 @@ export class ImportSession {
     }
     this.forgetGone()
     if (keys) return
-    // What was corrected before files were added holds for them, too.
+    // Corrections made before files were added apply to these, too.
     const again = this.all !== kNone || this.own.size > 0 ? this.reports.map(({ files }) => keyOf(files)) : []
     this.refused = new Map()
     this.stale = new Set([...[...this.stale].filter((key) => !isSame(key)), ...again])
     if (again.length > 0) await this.inspect(again)
   }
-  /** What is told of these recordings is of what they are now: `refused` has what is not taken of it. */
+  /** Marks the reports of these recordings as up to date; `refused` holds the faults of their corrections. */
   private looked(keys: readonly string[], refused: ReadonlyMap<string, unknown>): void {
     const over = new Set(keys)
     this.stale = new Set([...this.stale].filter((key) => !over.has(key)))
     this.refused = new Map([...[...this.refused].filter(([key]) => !over.has(key)), ...[...refused].filter(([key]) => over.has(key))])
   }
 
-  /** Stores what is wanted, one call for recordings that are told the same. One that is refused leaves the others. */
+  /** Stores the wanted recordings, one call for all with the same corrections. A refused call does not affect the others. */
   async import(): Promise<void> {
     this.fault = undefined
     this.turnedAway = false
@@ -282,7 +282,7 @@ export class ImportSession {
     const count = groups.reduce((sum, { keys }) => sum + keys.length, 0)
     let before = 0
     for (const group of groups) {
-      // What is corrected meanwhile is not stored as it was.
+      // Recordings corrected meanwhile are not stored in their old state.
       const keys = group.keys.filter(isSame).sort((a, b) => (this.nameOf(a) < this.nameOf(b) ? -1 : 1)),
         done = before
       before += group.keys.length
@@ -308,7 +308,7 @@ export class ImportSession {
     this.onimported?.()
   }
 
-  /** A piece of a file's motion as an import would store it; `reading` says how the file is to be read. Only while there is an upload. */
+  /** Returns part of a file's motion as an import would store it; `reading` gives the options for reading the file. Requires an upload. */
   preview(file: string, reading: Readonly<Record<string, unknown>>, signal: AbortSignal): Promise<OpenedMotion> {
     const { api, database, sender } = this
     return wholeMotion((taker) => previewUpload(api, database, sender.upload!, { ...reading, file }, taker, signal))
@@ -327,34 +327,34 @@ export class ImportSession {
     )
   }
 
-  /** Which files belong together, with their signers, as the next call is to have it. */
+  /** Returns how files belong together, with their signers, for the next call. */
   private table(): readonly Pair[] {
     const pairs = this.pairs ?? this.reports.map(({ files }): Pair => ({ ...files, signer: '' }))
     return pairs.map((pair) => ({ ...pair, signer: this.own.get(keyOf(pair))?.signer || this.all.signer || pair.signer }))
   }
 
-  private run<Result>(what: 'inspect' | 'import', { keys, body, rig }: Group, told: (part: number, result?: Result) => void): Promise<Result> {
+  private run<Result>(what: 'inspect' | 'import', { keys, body, rig }: Group, onprogress: (part: number, result?: Result) => void): Promise<Result> {
     return this.jobs.run(
       what,
       () => {
         const table = this.table(),
-          isTold = this.pairs || table.some(({ signer }) => signer !== '')
+          hasTable = this.pairs || table.some(({ signer }) => signer !== '')
         return {
           parameters: keys.length > 0 ? { ...body, recordings: keys.map((key) => this.nameOf(key)) } : body,
-          made: { ...(isTold && { pairs: { name: kTable, text: tableOf(table) } }), ...(rig && { rig: { name: 'parts.rig', text: rig } }) },
+          made: { ...(hasTable && { pairs: { name: kTable, text: tableOf(table) } }), ...(rig && { rig: { name: 'parts.rig', text: rig } }) },
         }
       },
-      told,
+      onprogress,
     )
   }
 
-  /** A new report takes the place of what was told of the same recordings; gives what is wrong with corrections. */
+  /** Replaces previous reports of the same recordings by new ones; returns the faults of corrections. */
   private take(inspection: Inspection, keys?: readonly string[]): ReadonlyMap<string, unknown> {
-    const { reports: told, errors } = withGood(inspection.recordings, this.reports, (key) => keys !== undefined && (this.own.has(key) || this.all !== kNone))
-    const toldKeys = new Set(told.map(({ files }) => keyOf(files)))
+    const { reports: updated, errors } = withGood(inspection.recordings, this.reports, (key) => keys !== undefined && (this.own.has(key) || this.all !== kNone))
+    const updatedKeys = new Set(updated.map(({ files }) => keyOf(files)))
     const here = this.pairs && new Set(this.pairs.map(keyOf))
-    const rest = keys ? this.reports.filter(({ files }) => !toldKeys.has(keyOf(files)) && (!here || here.has(keyOf(files)))) : []
-    this.reports = [...rest, ...told].sort((a, b) => (a.name < b.name ? -1 : 1))
+    const rest = keys ? this.reports.filter(({ files }) => !updatedKeys.has(keyOf(files)) && (!here || here.has(keyOf(files)))) : []
+    this.reports = [...rest, ...updated].sort((a, b) => (a.name < b.name ? -1 : 1))
     if (!keys) this.notices = inspection.notices
     this.faults = inspection.faults
     return errors
@@ -371,10 +371,10 @@ export class ImportSession {
   }
 
   private touched(keys: readonly string[]): void {
-    // What was stored and is corrected now may be stored again.
+    // A recording that was stored and corrected since can be stored again.
     this.outcomes = new Map([...this.outcomes].filter(([key]) => !keys.includes(key)))
     this.revisions.bump(keys)
-    // What was not taken may be, beside what the others are now.
+    // Recordings that were refused may be accepted now, in combination with the others' changes.
     this.stale = new Set([...this.stale, ...this.refused.keys(), ...keys])
     this.settle()
   }
@@ -396,7 +396,7 @@ export class ImportSession {
     if (this.pairs) this.pairs = this.extended(this.pairs)
     this.forgetReports()
   }
-  /** Pairs for the files that are there now. */
+  /** Returns the pairs updated for the current files. */
   private extended(pairs: readonly Pair[]): readonly Pair[] {
     const names = new Set(this.list.files.map(({ name }) => name))
     return extended(pairs, names, { motion: this.filesOf('motion'), annotation: this.filesOf('annotation'), face: this.filesOf('face') }, this.stemOf)
@@ -408,7 +408,7 @@ export class ImportSession {
     this.outcomes = new Map()
   }
 
-  /** A table of pairs and a mapping file say what is to be corrected: they are read here, and shown as corrections. */
+  /** Tables of pairs and mapping files specify corrections: they are read here, and shown as corrections. */
   private async readTables(): Promise<void> {
     for (const { kind, file } of this.list.files) {
       if (kind === 'rig') this.all = { ...this.all, rig: { ...readRig(await file.text()), ...this.all.rig } }
@@ -420,7 +420,7 @@ export class ImportSession {
   }
 
   readonly stemOf = (name: string): string => stemOf(name, this.formats)
-  /** What the format of a file is called. */
+  /** Returns the name of a file's format. */
   formatOf(name: string): string {
     return endingOf(name, this.formats)?.name ?? ''
   }

@@ -35,22 +35,22 @@ vi.mock('../../api/corpus_calls', () => ({
   },
 }))
 
-/** Calls that wait for their answer. */
+/** Calls waiting for an answer. */
 let calls: Call[] = []
 const result = ({ job }: { job: string }) => new Promise((answer, refuse) => calls.push({ ...server.begun[Number(job)], answer, refuse } as Call))
 const api = { result } as unknown as Api
 const report = (name: string, more: object = {}): Inspected => ({ name, files: { motion: `${name}.bvh`, annotation: null, face: null }, known: false, ...more })
 const inspection = (recordings: readonly Inspected[]) => ({ recordings, notices: [], faults: [] })
 const stored = (names: readonly string[]) => ({ recordings: names.map((name): Imported => ({ name, outcome: 'added' })), notices: [], faults: [] })
-const told = (settings: object) => ({ ...kNone, settings })
-/** The next call; what it told is as it was asked for. */
+const corrected = (settings: object) => ({ ...kNone, settings })
+/** Returns the next call; its parameters are those at the time of the call. */
 async function next(): Promise<Call> {
   await vi.waitFor(() => expect(calls.length).toBeGreaterThan(0))
   return calls.shift()!
 }
 const settle = () => vi.advanceTimersByTimeAsync(1000)
 
-/** A session whose recordings a, b and c were looked at. */
+/** Returns a session in which the recordings a, b and c were inspected. */
 async function looked(): Promise<ImportSession> {
   const session = new ImportSession(api, 'db')
   await vi.waitFor(() => expect(session.writable).toBe(true))
@@ -68,13 +68,13 @@ afterEach(() => {
   Object.assign(server, { begun: [], discarded: [], cancelled: [], opened: 0, onbegin: undefined })
 })
 
-it('looks again at what is corrected while another is looked at, and imports nothing unseen', async () => {
+it('inspects again what is corrected during an inspection, and imports nothing without inspection', async () => {
   const session = await looked()
-  session.correct('a.bvh', told({ unit: 'm' }))
+  session.correct('a.bvh', corrected({ unit: 'm' }))
   await settle()
   const first = await next()
-  session.correct('b.bvh', told({ mirror: 'yes' }))
-  session.correct('a.bvh', told({ unit: 'cm' }))
+  session.correct('b.bvh', corrected({ mirror: 'yes' }))
+  session.correct('a.bvh', corrected({ unit: 'cm' }))
   first.answer(inspection([report('a')]))
   await vi.waitFor(() => expect(session.doing).toBeUndefined())
   expect([...session.stale].sort()).toEqual(['a.bvh', 'b.bvh'])
@@ -89,11 +89,11 @@ it('looks again at what is corrected while another is looked at, and imports not
   expect(session.reports.find(({ name }) => name === 'b')!.layout!.mirrored).toBe(true)
 })
 
-it('keeps what is corrected while everything is looked at', async () => {
+it('keeps corrections made during a full inspection', async () => {
   const session = await looked(),
     again = session.send(),
     all = await next()
-  session.correct('c.bvh', told({ mirror: 'yes' }))
+  session.correct('c.bvh', corrected({ mirror: 'yes' }))
   all.answer(inspection(['a', 'b', 'c'].map((name) => report(name))))
   for (let left = 2; left > 0; --left) {
     const { body, answer } = await next()
@@ -105,7 +105,7 @@ it('keeps what is corrected while everything is looked at', async () => {
   expect(session.stale.size).toBe(0)
 })
 
-it('keeps the report of what cannot be read as it is corrected', async () => {
+it('keeps the report of a recording that is unreadable with its corrections', async () => {
   const session = await looked()
   session.correct('a.bvh', { ...kNone, rig: { pelvis: 'nope' } })
   await settle()
@@ -115,7 +115,7 @@ it('keeps the report of what cannot be read as it is corrected', async () => {
   await vi.waitFor(() => expect(session.refused.get('a.bvh')).toBe('no joint nope'))
   expect(session.reports.find(({ name }) => name === 'a')!.error).toBeUndefined()
   expect(session.wanted.map(({ name }) => name)).toEqual(['b', 'c'])
-  // Another correction, of whatever recording, looks at it again; mended, it is as the others.
+  // The next correction, of any recording, inspects it again; once fixed, it is like the others.
   session.correct('a.bvh', kNone)
   await settle()
   ;(await next()).answer(inspection([report('a')]))
@@ -123,15 +123,15 @@ it('keeps the report of what cannot be read as it is corrected', async () => {
   expect(session.wanted).toHaveLength(3)
 })
 
-it('takes only what the server says of corrections for their fault, and looks again at the rest', async () => {
+it("treats only the server's faults of corrections as such, and inspects the rest again", async () => {
   const session = await looked()
-  session.correct('a.bvh', told({ face_timecode: '99:99:99:99' }))
+  session.correct('a.bvh', corrected({ face_timecode: '99:99:99:99' }))
   await settle()
   ;(await next()).refuse(new ApiError('no such timecode', 400, 'bad_input'))
   await vi.waitFor(() => expect(session.refused.size).toBe(1))
   expect(session.stale.size).toBe(0)
-  // What was not taken is looked at with the next correction, too.
-  session.correct('b.bvh', told({ unit: 'm' }))
+  // A refused recording is inspected again with the next correction, too.
+  session.correct('b.bvh', corrected({ unit: 'm' }))
   expect([...session.stale].sort()).toEqual(['a.bvh', 'b.bvh'])
   for (const fault of [new StudioFault('unreachable'), new ApiError('stopping', 503, 'stopping'), new ApiError('disk full', 500, 'io')]) {
     if (session.fault) session.retry!()
@@ -147,10 +147,10 @@ it('takes only what the server says of corrections for their fault, and looks ag
   expect([session.refused.size, session.fault]).toEqual([0, undefined])
 })
 
-it('imports the others where one is refused, and tries again what failed', async () => {
+it('imports the others if one is refused, and retries the failed one', async () => {
   const session = await looked()
-  session.correct('a.bvh', told({ unit: 'm' }))
-  session.correct('b.bvh', told({ unit: 'cm' }))
+  session.correct('a.bvh', corrected({ unit: 'm' }))
+  session.correct('b.bvh', corrected({ unit: 'cm' }))
   await settle()
   for (const name of ['a', 'b']) (await next()).answer(inspection([report(name)]))
   await vi.waitFor(() => expect(session.stale.size).toBe(0))
@@ -164,7 +164,7 @@ it('imports the others where one is refused, and tries again what failed', async
   await over
   expect(session.outcomes.get('a.bvh')).toMatchObject({ outcome: 'failed', error: 'not so' })
   expect([session.fault, session.wanted.map(({ name }) => name)]).toEqual([away, ['a', 'c']])
-  // What was corrected since is not imported before it was looked at.
+  // A recording corrected since is not imported before it is inspected.
   session.correct('c.bvh', kNone)
   session.retry!()
   const again = await next()
@@ -180,16 +180,16 @@ it('imports the others where one is refused, and tries again what failed', async
   expect([server.begun.at(-1), session.wanted.length]).toEqual([{ what: 'import', body: { recordings: ['c'] } }, 0])
 })
 
-it('does not take a recording that is corrected during its import for imported so', async () => {
+it('does not mark a recording corrected during its import as imported', async () => {
   const session = await looked()
-  session.correct('c.bvh', told({ unit: 'm' }))
+  session.correct('c.bvh', corrected({ unit: 'm' }))
   await settle()
   ;(await next()).answer(inspection([report('c')]))
   await vi.waitFor(() => expect(session.stale.size).toBe(0))
   const over = session.import(),
     first = await next()
-  session.correct('a.bvh', told({ mirror: 'yes' }))
-  session.correct('c.bvh', told({ unit: 'cm' }))
+  session.correct('a.bvh', corrected({ mirror: 'yes' }))
+  session.correct('c.bvh', corrected({ unit: 'cm' }))
   first.answer(stored(['a', 'b']))
   await over
   expect([...session.outcomes.keys()]).toEqual(['b.bvh'])
@@ -197,7 +197,7 @@ it('does not take a recording that is corrected during its import for imported s
   expect(server.begun.filter(({ what }) => what === 'import')).toHaveLength(1)
 })
 
-it('takes and gives no files while something is under way, and says so', async () => {
+it('rejects adding and removing files during a job, with a message', async () => {
   const session = await looked(),
     over = session.import(),
     { answer } = await next()
@@ -211,7 +211,7 @@ it('takes and gives no files while something is under way, and says so', async (
   expect([session.turnedAway, session.list.files.length]).toEqual([false, 1])
 })
 
-it('gives up an upload that nobody imports from, and sends it anew where it is wanted after all', async () => {
+it('discards an unused upload, and sends it again when needed', async () => {
   const session = await looked()
   session.leave()
   expect(server.discarded).toEqual([])
@@ -235,15 +235,15 @@ it('gives up an upload that nobody imports from, and sends it anew where it is w
   expect(server.discarded).toEqual(['upload 1', 'upload 2'])
 })
 
-it('says what nobody looks at any more where looking was cancelled', async () => {
+it('lists the recordings without inspection after cancelling', async () => {
   const session = await looked()
-  session.correct('a.bvh', told({ unit: 'm' }))
+  session.correct('a.bvh', corrected({ unit: 'm' }))
   expect(session.unlooked).toEqual([])
   await settle()
   ;(await next()).refuse(new ApiError('cancelled', 500, 'cancelled'))
   await vi.waitFor(() => expect(session.unlooked).toEqual(['a.bvh']))
   expect(session.fault).toBeUndefined()
-  // It is also cancelled where it is only about to begin, or is not known to have begun.
+  // A job can also be cancelled when it is about to start, or not known to have started.
   const again = session.inspect(session.unlooked)
   session.cancel()
   await again

@@ -1,28 +1,28 @@
 import type { FilePart } from '../../api/corpus_answers'
 
-/** Files that make one recording, by the names that they are sent under. */
+/** The files of one recording, by the names under which they are sent. */
 export interface Pair {
   readonly motion: string | null
   readonly annotation: string | null
   readonly face: string | null
   readonly signer: string
-  /** Annotation time of frame 0, and the motion's time of the face's first row, in ms, as a table tells them. */
+  /** Annotation time of frame 0, and the motion's time of the face's first row, in ms, as given in a table. */
   readonly offset?: string
   readonly faceOffset?: string
-  /** What the recording is called, where a table tells it. */
+  /** The name of the recording, if given in a table. */
   readonly name?: string
 }
 export type Files = Pick<Pair, FilePart>
 
-/** What a recording is known by while it is corrected. */
+/** Returns the key that identifies a recording during corrections. */
 export const keyOf = (files: Files): string => files.motion ?? files.annotation ?? ''
 
-/** A file's name without its ending: what a recording made of it is called. */
+/** Returns a file's name without its extension: the name of a recording built from it. */
 export type Stem = (name: string) => string
 
 /**
- * With another file as a part of one recording, or none. A motion belongs to one recording, and so does a face; an annotation may serve several motions. What
- * belongs to nothing then becomes a recording of its own, unless another has that name: it is left out then.
+ * Sets another file as a part of one recording; null removes it. A motion belongs to one recording, and so does a face; an annotation may belong to several
+ * motions. Files that then belong to nothing become recordings of their own, unless another has that name, in which case they are left out.
  */
 export function paired(pairs: readonly Pair[], key: string, part: FilePart, file: string | null, stem: Stem): readonly Pair[] {
   const one = pairs.find((pair) => keyOf(pair) === key)
@@ -30,14 +30,14 @@ export function paired(pairs: readonly Pair[], key: string, part: FilePart, file
   let rest = pairs.filter((pair) => pair !== one)
   let changed: Pair = { ...one, [part]: file }
   if (part === 'motion' && file !== null) {
-    // That motion's own recording is this one from now on.
+    // This recording replaces that motion's own recording.
     const other = rest.find(({ motion }) => motion === file)
     rest = rest.filter((pair) => pair !== other)
     changed = { ...changed, face: other?.face ?? null }
   } else if (part === 'motion') changed = { ...changed, face: null }
   else if (part === 'face' && file !== null) rest = rest.map((pair) => (pair.face === file ? { ...pair, face: null } : pair))
   else if (file !== null) rest = rest.filter(({ motion, annotation }) => motion !== null || annotation !== file)
-  // A motion that is taken away from the annotation of its name leaves the name to it.
+  // A motion removed from the annotation with its name leaves the name to the annotation.
   if (part === 'motion' && file === null && one.motion && changed.annotation && stem(one.motion) === stem(changed.annotation)) {
     return named([...rest, changed].sort(byKey), stem)
   }
@@ -45,7 +45,7 @@ export function paired(pairs: readonly Pair[], key: string, part: FilePart, file
 }
 const byKey = (a: Pair, b: Pair) => (keyOf(a) < keyOf(b) ? -1 : 1)
 
-/** What `before` had and no pair has now comes as recordings of its own; faces need a motion, and stay where they lay where they have one. */
+/** Adds recordings for files that were in `before` and are in no pair now; a face needs a motion, and stays with its previous one if there is one. */
 function completed(pairs: readonly Pair[], before: readonly Pair[]): readonly Pair[] {
   const has = (part: FilePart, file: string | null) => file === null || pairs.some((pair) => pair[part] === file)
   const alone: Pair[] = []
@@ -56,13 +56,13 @@ function completed(pairs: readonly Pair[], before: readonly Pair[]): readonly Pa
   return [...pairs, ...alone].sort(byKey)
 }
 
-/** Without annotations alone that would be called as a recording with motion is: no two can have one name. */
+/** Removes annotation-only recordings with the name of a recording that has motion: names are unique. */
 function named(pairs: readonly Pair[], stem: Stem): readonly Pair[] {
   const motions = new Set(pairs.flatMap(({ motion }) => (motion ? [stem(motion)] : [])))
   return pairs.filter(({ motion, annotation }) => motion !== null || !motions.has(stem(annotation!)))
 }
 
-/** For files that came or went since: what is gone is in no pair, and what is new belongs to what has the same stem. */
+/** Updates pairs for files added or removed since: removed files leave their pairs, and new files are matched by their stem. */
 export function extended(pairs: readonly Pair[], names: ReadonlySet<string>, all: Readonly<Record<FilePart, readonly string[]>>, stem: Stem): readonly Pair[] {
   const here = (name: string | null) => (name !== null && names.has(name) ? name : null)
   const kept = pairs
@@ -81,7 +81,7 @@ export function extended(pairs: readonly Pair[], names: ReadonlySet<string>, all
   return named([...kept, ...motions, ...alone], stem)
 }
 
-/** As the server reads it (docs/formats.md). */
+/** Returns the table as the server reads it (docs/formats.md). */
 export function tableOf(pairs: readonly Pair[]): string {
   const rows = pairs.map(({ motion, annotation, signer, offset, face, faceOffset, name }) => [
     motion,
@@ -96,24 +96,24 @@ export function tableOf(pairs: readonly Pair[]): string {
 }
 const quoted = (field: string) => (/[",\r\n]|^\s|\s$/.test(field) ? `"${field.replaceAll('"', '""')}"` : field)
 
-/** What is wrong with a table of pairs: a file that was not chosen, or a line that is no pair. */
+/** A fault in a table of pairs: a file that was not chosen, or a line that is no pair. */
 export interface TableFault {
   readonly line: number
   readonly file?: string
 }
 
-/** Reads a table of pairs. Its paths stand for the files of those names: `names` are those that were chosen. */
+/** Reads a table of pairs. Its paths refer to files by their names; `names` are the chosen files. */
 export function readTable(text: string, names: ReadonlySet<string>): { readonly pairs: readonly Pair[]; readonly faults: readonly TableFault[] } {
   const pairs: Pair[] = [],
     faults: TableFault[] = []
-  const beside = (motion: string) => `${motion.replace(/\.[^.]*$/, '')}.face.csv`
+  const faceNextTo = (motion: string) => `${motion.replace(/\.[^.]*$/, '')}.face.csv`
   for (const { line, fields } of rowsOf(text)) {
     const [motion = '', annotation = '', signer = '', offset = '', face = '', faceOffset = '', name = ''] = fields.map((field) => field.trim())
     if (pairs.length === 0 && motion.toLowerCase() === 'motion') continue
     const file = (path: string) => path.replaceAll('\\', '/').split('/').at(-1)! || null
     const files = { motion: file(motion), annotation: file(annotation), face: face === '-' ? null : file(face) }
-    // Nothing said, what lies beside the motion is its face, as the server has it.
-    if (files.motion && !face && names.has(beside(files.motion))) files.face = beside(files.motion)
+    // By default the file next to the motion is its face, as on the server.
+    if (files.motion && !face && names.has(faceNextTo(files.motion))) files.face = faceNextTo(files.motion)
     const missing = Object.values(files).find((name) => name !== null && !names.has(name))
     if (missing) faults.push({ line, file: missing })
     else if (!files.motion && !files.annotation) faults.push({ line })
@@ -122,7 +122,7 @@ export function readTable(text: string, names: ReadonlySet<string>): { readonly 
   return { pairs, faults }
 }
 
-/** Rows of CSV (RFC 4180) with the line that each begins on; empty ones are left out. */
+/** Returns the rows of a CSV (RFC 4180) with the line at which each begins; empty rows are skipped. */
 function rowsOf(text: string): readonly { readonly line: number; readonly fields: readonly string[] }[] {
   const rows: { line: number; fields: string[] }[] = []
   let line = 1,

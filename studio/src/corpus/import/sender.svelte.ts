@@ -3,9 +3,9 @@ import { discardUpload, openUpload, removeUploaded, sendFile } from '../../api/c
 import { ApiError } from '../../api/fault'
 import type { Listed } from './file_list'
 
-const kTellMs = 100
+const kUpdateMs = 100
 
-/** How far a file is. */
+/** The progress of a file. */
 export interface Sending {
   readonly state: 'sending' | 'sent' | 'failed'
   readonly bytes: number
@@ -13,10 +13,10 @@ export interface Sending {
   readonly fault?: unknown
 }
 
-/** Sends files to an upload of the server, one after the other. What was sent stays there while others fail or are cancelled. */
+/** Sends files to an upload of the server, one after the other. Sent files stay there while others fail or are cancelled. */
 export class Sender {
-  /** By the file's number; those that wait are not there. */
-  told = $state.raw<ReadonlyMap<number, Sending>>(new Map())
+  /** By the file's id; waiting files have no entry. */
+  states = $state.raw<ReadonlyMap<number, Sending>>(new Map())
   busy = $state(false)
   upload = $state<string | undefined>()
   private abort?: AbortController
@@ -27,16 +27,16 @@ export class Sender {
   ) {}
 
   bytes(): number {
-    return [...this.told.values()].reduce((sum, { bytes }) => sum + bytes, 0)
+    return [...this.states.values()].reduce((sum, { bytes }) => sum + bytes, 0)
   }
   has({ id, name }: Listed): boolean {
-    const told = this.told.get(id)
-    return told?.state === 'sent' && told.name === name
+    const own = this.states.get(id)
+    return own?.state === 'sent' && own.name === name
   }
-  /** Takes back what was sent and is not among `files` any more, or has another name now: the server would read it. The rest stays there. */
+  /** Removes sent files that are no longer among `files`, or have another name now: the server would read them. The rest stays there. */
   async retract(files: readonly Listed[]): Promise<void> {
     const names = new Map(files.map(({ id, name }) => [id, name]))
-    for (const [id, { state, name }] of this.told) {
+    for (const [id, { state, name }] of this.states) {
       if (state !== 'sent' || names.get(id) === name) continue
       try {
         await removeUploaded(this.api, this.database, this.upload!, name)
@@ -47,7 +47,7 @@ export class Sender {
     }
   }
 
-  /** Sends what is not there yet; true where all of it is there then. */
+  /** Sends the files that are not there yet; returns true if all of them are there afterwards. */
   async send(files: readonly Listed[]): Promise<boolean> {
     this.abort = new AbortController()
     const { signal } = this.abort
@@ -66,7 +66,7 @@ export class Sender {
     }
   }
 
-  /** A small file that is made here, such as a table. */
+  /** Sends a small file that is generated here, such as a table. */
   async put(name: string, text: string): Promise<void> {
     await sendFile(this.api, this.database, this.upload!, name, new Blob([text]), () => {}, new AbortController().signal)
   }
@@ -75,25 +75,25 @@ export class Sender {
     this.abort?.abort(new DOMException('cancelled', 'AbortError'))
   }
 
-  /** Gives up the upload: what was sent has to be sent again. */
+  /** Discards the upload: all files have to be sent again. */
   forget(): void {
     const { upload } = this
     this.cancel()
     this.upload = undefined
-    this.told = new Map()
-    if (upload) discardUpload(this.api, this.database, upload).catch(() => {}) // it goes by itself when nobody uses it
+    this.states = new Map()
+    if (upload) discardUpload(this.api, this.database, upload).catch(() => {}) // the server removes it after a time without use
   }
 
   private untold(id: number): void {
-    const rest = new Map(this.told)
+    const rest = new Map(this.states)
     rest.delete(id)
-    this.told = rest
+    this.states = rest
   }
 
   private async one({ id, name, file }: Listed, signal: AbortSignal): Promise<void> {
     let last = 0
-    const tell = (sending: Sending) => (this.told = new Map(this.told).set(id, sending))
-    tell({ state: 'sending', bytes: 0, name })
+    const update = (sending: Sending) => (this.states = new Map(this.states).set(id, sending))
+    update({ state: 'sending', bytes: 0, name })
     try {
       await sendFile(
         this.api,
@@ -103,23 +103,23 @@ export class Sender {
         file,
         (loaded) => {
           const now = performance.now()
-          if (now - last < kTellMs) return
+          if (now - last < kUpdateMs) return
           last = now
-          tell({ state: 'sending', bytes: Math.min(loaded, file.size), name })
+          update({ state: 'sending', bytes: Math.min(loaded, file.size), name })
         },
         signal,
       )
-      tell({ state: 'sent', bytes: file.size, name })
+      update({ state: 'sent', bytes: file.size, name })
     } catch (fault) {
       if (signal.aborted) {
         this.untold(id)
         return
       }
       if (isGone(fault)) throw fault
-      tell({ state: 'failed', bytes: 0, name, fault })
+      update({ state: 'failed', bytes: 0, name, fault })
     }
   }
 }
 
-/** Whether the server has the upload no more: nobody used it for an hour, or the server was started anew. */
+/** Whether the server no longer has the upload: it was unused for an hour, or the server was restarted. */
 export const isGone = (fault: unknown) => fault instanceof ApiError && fault.status === 404 && /no upload/.test(fault.message)

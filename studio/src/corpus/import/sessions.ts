@@ -2,7 +2,7 @@ import type { Api } from '../../api/client'
 import { ImportSession } from './import_session.svelte'
 
 const sessions = new Map<string, ImportSession>()
-/** The import that goes on for a database, also where its page was left. */
+/** Returns the current import of a database, also after its page was left. */
 export function sessionOf(api: Api, database: string): ImportSession {
   if (sessions.size === 0) addEventListener('pagehide', () => sessions.forEach((session) => session.close()))
   let session = sessions.get(database)

@@ -4,26 +4,26 @@ import { ApiError } from '../../api/fault'
 import type { Listed } from './file_list'
 import { isGone, type Sender } from './sender.svelte'
 
-/** A call of an upload: its parameters, and the small files that are made for it, by the parameter that names each. */
+/** A call of an upload: its parameters, and the small files generated for it, keyed by the parameter that refers to each. */
 export interface UploadCall {
   readonly parameters: Readonly<Record<string, unknown>>
   readonly made: Readonly<Record<string, { readonly name: string; readonly text: string }>>
 }
 
-/** What is being done, `part` of it being over, 0 to 1. */
+/** The current activity; `part` is its progress, 0 to 1. */
 export interface Doing {
   readonly what: 'inspect' | 'import'
   readonly part: number
-  /** Of an import, the recordings of the call in their order, and how far it is. */
+  /** For an import, the recordings of the current call in their order, and its progress. */
   readonly call?: { readonly keys: readonly string[]; readonly part: number }
 }
 
-/** Does the calls of an upload, one at a time; where the server has the upload no more, everything is sent again first. */
+/** Runs the calls of an upload, one at a time; if the server no longer has the upload, everything is sent again first. */
 export class UploadJobs {
   private job?: string
   private isStopped = false
 
-  /** `files` are those that the upload has to have. */
+  /** `files` are those that the upload must contain. */
   constructor(
     private readonly api: Api,
     private readonly database: string,
@@ -31,18 +31,18 @@ export class UploadJobs {
     private readonly files: () => readonly Listed[],
   ) {}
 
-  async run<Result>(what: 'inspect' | 'import', call: () => UploadCall, told: (part: number, result?: Result) => void): Promise<Result> {
+  async run<Result>(what: 'inspect' | 'import', call: () => UploadCall, onprogress: (part: number, result?: Result) => void): Promise<Result> {
     this.isStopped = false
     try {
       if (!this.sender.upload) await this.sendAgain()
-      return await this.once(what, call(), told)
+      return await this.once(what, call(), onprogress)
     } catch (fault) {
       if (!isGone(fault)) throw fault
       await this.sendAgain()
-      return this.once(what, call(), told)
+      return this.once(what, call(), onprogress)
     }
   }
-  /** Also where the job is only about to begin. */
+  /** Also works while the job is about to start. */
   async cancel(): Promise<void> {
     this.isStopped = true
     if (this.job) await cancelJob(this.api, this.job)
@@ -51,11 +51,15 @@ export class UploadJobs {
   private async sendAgain(): Promise<void> {
     this.sender.forget()
     if (await this.sender.send(this.files())) return
-    const fault = [...this.sender.told.values()].find(({ state }) => state === 'failed')?.fault
+    const fault = [...this.sender.states.values()].find(({ state }) => state === 'failed')?.fault
     throw fault instanceof Error ? fault : cancelled()
   }
 
-  private async once<Result>(what: 'inspect' | 'import', { parameters, made }: UploadCall, told: (part: number, result?: Result) => void): Promise<Result> {
+  private async once<Result>(
+    what: 'inspect' | 'import',
+    { parameters, made }: UploadCall,
+    onprogress: (part: number, result?: Result) => void,
+  ): Promise<Result> {
     const { api, database, sender } = this,
       body = { ...parameters }
     await sender.retract(this.files())
@@ -68,8 +72,8 @@ export class UploadJobs {
     this.job = begun.job
     try {
       if (this.isStopped) await this.cancel()
-      const result = await api.result<Result>(begun, (state) => told(state.fraction, state.result))
-      told(1, result)
+      const result = await api.result<Result>(begun, (state) => onprogress(state.fraction, state.result))
+      onprogress(1, result)
       return result
     } finally {
       this.job = undefined

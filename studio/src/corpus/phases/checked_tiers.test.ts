@@ -31,7 +31,7 @@ const kReview: Review = [accepted('right', 'preparation', 50, 150), accepted('ri
   put,
   kEmpty,
 )
-/** The lines of `after` that `before` has not, and the other way round. */
+/** Returns the lines of `before` missing in `after`, and the other way round. */
 function difference(before: string, after: string): { gone: string[]; come: string[] } {
   const lines = (text: string) => text.split('\n').map((line) => line.trim())
   const count = (list: string[]) => {
@@ -47,7 +47,7 @@ function difference(before: string, after: string): { gone: string[]; come: stri
   }
 }
 
-it('adds a tier for each hand, and leaves every other byte as it was', () => {
+it('adds a tier for each hand, and leaves every other byte unchanged', () => {
   const { text, tiers } = writeChecked(kEaf, kReview, 'A <b>')
   expect(tiers).toEqual([
     { hand: 'right', name: 'Phase RH (checked)', count: 2, unseen: 0 },
@@ -66,7 +66,7 @@ it('adds a tier for each hand, and leaves every other byte as it was', () => {
     { begin: 150, end: 400, label: 'stroke' },
   ])
   expect(read[0].annotations).toEqual(readEaf(kEaf).tiers[0].annotations)
-  // Slots stand in the order of their times.
+  // Slots are ordered by their times.
   const slots = parseXml(text)!
     .children.find(({ name }) => name === 'TIME_ORDER')!
     .children.flatMap(({ attributes }) => (attributes.TIME_VALUE ? [Number(attributes.TIME_VALUE)] : []))
@@ -74,7 +74,7 @@ it('adds a tier for each hand, and leaves every other byte as it was', () => {
   expect(slots.length).toBe(8)
 })
 
-it('begins a second review with what was written, and writes it anew', () => {
+it('starts a second review from the written phases, and rewrites them', () => {
   const once = writeChecked(kEaf, kReview, '').text
   const read = readChecked(readEaf(once))!
   expect([read.phases.right.map(({ kind, begin, end, state }) => [kind, begin, end, state]), read.phases.left.length]).toEqual([
@@ -86,7 +86,7 @@ it('begins a second review with what was written, and writes it anew', () => {
   ])
   const twice = writeChecked(once, read, '').text
   expect(writeChecked(once, decided(read, 1, 'rejected'), '').text).not.toMatch(/preparation/)
-  // Only ids are others.
+  // Only ids differ.
   const plain = (text: string) =>
     text
       .replaceAll(/"(ts|a)\d+"|>\d+</g, '""')
@@ -95,13 +95,13 @@ it('begins a second review with what was written, and writes it anew', () => {
       .join('\n')
   expect(plain(twice)).toBe(plain(once))
   expect(parseXml(twice)!.children.find(({ name }) => name === 'TIME_ORDER')!.children.length).toBe(9)
-  // What has nothing left goes away altogether.
+  // Tiers without phases are removed entirely.
   const none = writeChecked(once, kEmpty, '')
   expect([none.tiers, /TIER_ID="Phase/.test(none.text), none.text.includes('>none<')]).toEqual([[], false, true])
   expect(readChecked(readEaf(none.text))).toBeUndefined()
 })
 
-it('writes under another name where somebody hung a tier on its own', () => {
+it('writes under another name if other tiers depend on its own', () => {
   const once = writeChecked(kEaf, kReview, '').text
   const hung = once.replace(
     '    <LINGUISTIC_TYPE ',
@@ -114,7 +114,7 @@ it('writes under another name where somebody hung a tier on its own', () => {
   expect([isChecked('Phase LH (checked)'), isChecked('Phase LH (proposed)'), isChecked('Phase RH (checked 2)')]).toEqual(['left', undefined, 'right'])
 })
 
-it('lets checked phases stay that somebody else stored meanwhile', () => {
+it('preserves checked phases that someone else stored meanwhile', () => {
   const before = writeChecked(kEaf, kReview, 'A').text,
     theirs = writeChecked(before, decided(readChecked(readEaf(before))!, 1, 'rejected'), 'B').text
   const [none, first, then] = [kEaf, before, theirs].map((text) => standOf(readEaf(text)))
@@ -129,7 +129,7 @@ it('lets checked phases stay that somebody else stored meanwhile', () => {
   ])
 })
 
-it('says which phases were accepted all at once, and knows them again', () => {
+it('records which phases were accepted all at once, and reads this back', () => {
   const open = put(put(kReview, { ...accepted('right', 'hold', 400, 500), state: 'open' }), { ...accepted('left', 'hold', 300, 500), state: 'open' })
   const { text, tiers } = writeChecked(kEaf, acceptedAll(open), 'Z')
   expect(tiers.map(({ unseen }) => unseen)).toEqual([1, 1])
@@ -141,7 +141,7 @@ it('says which phases were accepted all at once, and knows them again', () => {
   expect(text).not.toContain('each phase checked')
   const read = readChecked(readEaf(text), text)!
   expect([...read.phases.right, ...read.phases.left].map(({ unseen }) => unseen ?? false)).toEqual([false, false, true, false, true])
-  // Whoever looks at them, and stores, has the file say so.
+  // After a person has looked at them and stored them, the file says so.
   const seen = [3, 5].reduce((review, id) => decided(review, id, 'accepted'), read)
   const after = writeChecked(text, seen, 'Z').text
   expect([
@@ -151,12 +151,12 @@ it('says which phases were accepted all at once, and knows them again', () => {
   ]).toEqual([true, false, false])
 })
 
-it('takes another name for its type where one of that name asks for more', () => {
+it('uses another name for its type if the existing one has more constraints', () => {
   const used = kEaf.replace('LINGUISTIC_TYPE_ID="gloss"', 'LINGUISTIC_TYPE_ID="checked phase" CONSTRAINTS="Time_Subdivision"')
   expect(writeChecked(used, kReview, '').text).toContain('LINGUISTIC_TYPE_REF="checked phase 2"')
 })
 
-it('writes into documents that have nothing, and keeps line ends', () => {
+it('writes into empty documents, and keeps line endings', () => {
   const { text } = writeChecked(emptyEaf('a & b.bvh', '2026-01-01T00:00:00Z'), kReview, '')
   expect(readEaf(text).tiers.map(({ name, annotations }) => [name, annotations.length])).toEqual([
     ['Phase RH (checked)', 2],
@@ -180,12 +180,12 @@ it('writes into documents that have nothing, and keeps line ends', () => {
   expect(windows.replaceAll('\r\n', '').includes('\n')).toBe(false)
 })
 
-it('refuses what is no EAF, and what is cut off', () => {
+it('rejects text that is not an EAF, or truncated', () => {
   for (const text of ['', '<html/>', kEaf.slice(0, -30), '<ANNOTATION_DOCUMENT><TIER></ANNOTATION_DOCUMENT>'])
     expect(() => writeChecked(text, kReview, '')).toThrow('noEaf')
 })
 
-it('reads any encoding, and writes UTF-8 that says so', () => {
+it('reads any encoding, and writes UTF-8 with the matching declaration', () => {
   const text = '<?xml version="1.0" encoding="ISO-8859-1"?><a b="é"/>'
   const latin = new Uint8Array([...text].map((c) => c.charCodeAt(0))).buffer
   expect(decoded(latin)).toBe(text)

@@ -3,22 +3,22 @@ import { eafRoot, EafWriter } from '../../annotation/eaf_writer'
 import { escaped, unescaped, type Element } from '../../annotation/xml_text'
 import { kEmpty, kHands, put, type Hand, type Phase, type Review } from './review'
 
-/// Phases that a person checked, in an EAF: for each hand a tier of its own, beside the signs, as `signweave segment` writes its proposals. They need not fill
-/// signs, so they cannot be a child that subdivides them; an import finds by their times and by the hand in their name which signs they belong to.
+/// Phases checked by a person, in an EAF: a separate tier for each hand next to the signs, like the proposals written by `signweave segment`. They need not
+/// fill signs, so their tier cannot be a subdividing child of the sign tier; an import assigns them to signs by their times and by the hand in the tier name.
 
 const kTier: Readonly<Record<Hand, string>> = { right: 'Phase RH (checked)', left: 'Phase LH (checked)' }
 const kType = 'checked phase'
-/** A property of the document; its name must not begin with `signweave:`, for that is what recordings declare of themselves on every view. */
+/** A property of the document; its name must not begin with `signweave:`, which marks declarations that recordings show on every view. */
 const kProperty = 'Phases (checked)'
-/** A property that tells the begins of phases that were accepted all at once, by tier: whoever takes the review up again still sees which they are. */
+/** A property that lists the begins of phases that were accepted all at once, by tier, so that a continued review still shows which they are. */
 const kUnseen = 'Phases (accepted unseen)'
 const pattern = (hand: Hand) => new RegExp(`^Phase ${hand === 'right' ? 'RH' : 'LH'} \\(checked(?: (\\d+))?\\)$`)
 
 export const isChecked = (tier: string): Hand | undefined => kHands.find((hand) => pattern(hand).test(tier))
 
 /**
- * The checked phases that a document has: the newest tier of each hand. None where it has none. `text` is the document's own, which tells what was
- * accepted unseen.
+ * Returns the checked phases of a document, from the newest tier of each hand; undefined if it has none. `text` is the document's text, which records which
+ * were accepted unseen.
  */
 export function readChecked({ tiers }: AnnotationDocument, text = ''): Review | undefined {
   let review = kEmpty,
@@ -47,29 +47,28 @@ function unseenIn(writer: EafWriter): readonly (readonly [tier: string, begins: 
 }
 const numberOf = (name: string) => Number(/(\d+)\)$/.exec(name)?.[1] ?? 1)
 
-/** What was written: the tier of each hand, and how many phases it has. */
+/** What was written: the tier of each hand, and its number of phases. */
 export interface Written {
   readonly text: string
   readonly tiers: readonly {
     readonly hand: Hand
     readonly name: string
     readonly count: number
-    /** So many of them accepted all at once. */ readonly unseen: number
+    /** The number of phases that were accepted all at once. */ readonly unseen: number
   }[]
 }
 
-/** What a document says of a review that is not for a file: hands whose tiers somebody else wrote meanwhile, so that they stay and ours get another name. */
-export interface Beside {
+/** Context of a review for writing: hands whose tiers were written by someone else meanwhile, so that those stay and ours get another name. */
+export interface WriteOptions {
   readonly hands?: readonly Hand[]
-  /** Of the text, where it was read already. */ readonly root?: Element
+  /** The root of the text, if it is already parsed. */ readonly root?: Element
 }
 
 /**
- * The document with the accepted phases. Its bytes stay as they are, but for: the tiers that this wrote before, which are written anew (under another
- * name where somebody hung tiers on them), new time slots in their places, a tier type, and properties. Throws where it is no EAF. `person` may be
- * empty.
+ * Returns the document with the accepted phases. Its bytes are unchanged except for: the tiers written before, which are rewritten (under another name if other
+ * tiers depend on them), new time slots in their places, a tier type, and properties. Throws if the text is not an EAF. `person` may be empty.
  */
-export function writeChecked(text: string, review: Review, person: string, { hands = [], root = eafRoot(text) }: Beside = {}): Written {
+export function writeChecked(text: string, review: Review, person: string, { hands = [], root = eafRoot(text) }: WriteOptions = {}): Written {
   const writer = new EafWriter(text, root)
   const made = kHands.flatMap((hand) =>
     writeHand(
@@ -84,7 +83,7 @@ export function writeChecked(text: string, review: Review, person: string, { han
     unseen = made.filter(({ unseen }) => unseen.length > 0)
   if (names.length > 0 || writer.property(kProperty) !== undefined)
     writer.setProperty(kProperty, names.length > 0 ? `${names.join(', ')}: ${howChecked(made, person)}` : 'none')
-  // Of tiers that stay it is still said.
+  // The entries of tiers that stay are preserved.
   const others = unseenIn(writer).filter(([name]) => !names.includes(name) && writer.stays(name))
   const kept = [...others, ...unseen.map(({ name, unseen }) => [name, unseen] as const)].map(([name, begins]) => `${name}: ${begins.join(' ')}`).join('; ')
   if (kept || writer.property(kUnseen) !== undefined) writer.setProperty(kUnseen, kept || 'none')
@@ -93,14 +92,14 @@ export function writeChecked(text: string, review: Review, person: string, { han
 
 type Made = Omit<Written['tiers'][number], 'unseen'> & { /** Begins of phases that were accepted unseen. */ readonly unseen: readonly number[] }
 
-/** Writes a hand's tier in place of what was written before; none where there is nothing to be written. */
-function writeHand(writer: EafWriter, hand: Hand, phases: readonly Phase[], person: string, beside: boolean): readonly Made[] {
+/** Writes a hand's tier in place of the previous one; returns nothing if there are no phases. */
+function writeHand(writer: EafWriter, hand: Hand, phases: readonly Phase[], person: string, keepExisting: boolean): readonly Made[] {
   const names = new Set(writer.tiers.map(({ attributes }) => attributes.TIER_ID))
   const ours = writer.tiers
     .filter(({ attributes }) => pattern(hand).test(attributes.TIER_ID))
     .sort((a, b) => numberOf(b.attributes.TIER_ID) - numberOf(a.attributes.TIER_ID))[0]
   let name = ours?.attributes.TIER_ID ?? kTier[hand]
-  if (ours && (beside || writer.tiers.some(({ attributes }) => attributes.PARENT_REF === name))) {
+  if (ours && (keepExisting || writer.tiers.some(({ attributes }) => attributes.PARENT_REF === name))) {
     let number = numberOf(name)
     while (names.has(name)) name = kTier[hand].replace(')', ` ${++number})`)
   } else if (ours) writer.remove(ours)
@@ -125,7 +124,7 @@ function howChecked(made: readonly Made[], person: string): string {
   return `proposed by signweave from motion alone, ${all - unseen} of ${all} phases checked by ${who}, ${unseen} accepted all at once without being looked at`
 }
 
-/** Who signs, where all tiers of their own say the same. */
+/** Returns the signer, if all original tiers name the same one. */
 function participantOf(tiers: readonly Element[]): string | undefined {
   const said = new Set(
     tiers
@@ -135,7 +134,7 @@ function participantOf(tiers: readonly Element[]): string | undefined {
   return said.size === 1 ? [...said][0] || undefined : undefined
 }
 
-/** What the checked phases of each hand are, as a short text that is another one where they are others; empty where there are none. */
+/** A short fingerprint of each hand's checked phases, which differs if they differ; empty if there are none. */
 export type Stand = Readonly<Record<Hand, string>>
 export function standOf({ tiers }: AnnotationDocument): Stand {
   const of = (hand: Hand) => {
@@ -149,10 +148,10 @@ function hashOf(text: string): string {
   for (let i = 0; i < text.length; ++i) hash = Math.imul(hash ^ text.charCodeAt(i), 0x01000193)
   return (hash >>> 0).toString(36)
 }
-/** The hands that have checked phases, and others than they had. */
+/** Returns the hands that have checked phases which differ from before. */
 export const rewritten = (before: Stand, now: Stand): readonly Hand[] => kHands.filter((hand) => now[hand] !== '' && now[hand] !== before[hand])
 
-/** A document without anything, for a recording that has none. */
+/** Returns an empty document, for a recording without annotation. */
 export function emptyEaf(motionFile: string, date: string): string {
   const file = escaped(motionFile)
   return `<?xml version="1.0" encoding="UTF-8"?>

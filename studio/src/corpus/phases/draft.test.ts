@@ -13,7 +13,7 @@ function storage(): Storage {
 const frames = { originMs: 0, rate: 100, count: 10 }
 const review = put(kEmpty, { hand: 'right', kind: 'stroke', begin: 0, end: 50, state: 'accepted' })
 
-it('keeps a review for its recording until it is dropped', () => {
+it('stores a review for its recording until it is dropped', () => {
   const here = storage()
   const done = keepDraft('a/b', 'c', { frames, review }, undefined, here)
   expect(done).toEqual({ revision: revisionOf('a/b', 'c', here) })
@@ -23,7 +23,7 @@ it('keeps a review for its recording until it is dropped', () => {
   expect(keptDraft('a/b', 'c', here)).toBeUndefined()
 })
 
-it('takes nothing that is broken, and says where nothing can be kept', () => {
+it('ignores broken drafts, and reports if nothing can be stored', () => {
   const here = storage()
   for (const text of [
     '',
@@ -44,12 +44,12 @@ it('takes nothing that is broken, and says where nothing can be kept', () => {
   expect(isOf({ frames, review }, { ...frames, rate: 50 })).toBe(false)
 })
 
-it('writes over nothing that another window has kept meanwhile', () => {
+it('never overwrites what another window has stored meanwhile', () => {
   const here = storage(),
     other = put(review, { hand: 'left', kind: 'hold', begin: 0, end: 50, state: 'open' })
   const keep = (one: typeof review, seen: string | undefined) => keepDraft('a', 'b', { frames, review: one }, seen, here)
   const first = keep(review, undefined) as { revision: string }
-  // Two windows have read it; one of them goes on.
+  // Two windows have read it; one of them continues.
   const second = keep(other, first.revision) as { revision: string }
   expect(keep(review, first.revision)).toBe('changed')
   expect(keptDraft('a', 'b', here)!.review).toEqual(other)
@@ -58,7 +58,7 @@ it('writes over nothing that another window has kept meanwhile', () => {
   dropDraft('a', 'b', second.revision, here)
   expect(keptDraft('a', 'b', here)).toBeUndefined()
   expect(keep(review, second.revision)).toBe('changed')
-  // One that an older studio kept has a revision, too.
+  // A draft stored by an older studio has a revision, too.
   here.setItem('signweave.review.a/b', JSON.stringify({ version: 1, frames, review }))
   expect(keep(other, undefined)).toBe('changed')
   expect(keep(other, revisionOf('a', 'b', here))).toHaveProperty('revision')

@@ -1,24 +1,24 @@
 import type { Stand } from './checked_tiers'
 import { faultsOf, type Frames, type Review } from './review'
 
-/** A review that is neither stored nor given up, and of what. */
+/** A review that is neither stored nor discarded, and the motion to which it belongs. */
 export interface Draft {
   readonly frames: Frames
   readonly review: Review
-  /** The checked phases that were stored when it was begun. */ readonly stand?: Stand
+  /** The checked phases that were stored when the review began. */ readonly stand?: Stand
 }
 
 const keyOf = (database: string, recording: string) => `signweave.review.${encodeURIComponent(database)}/${encodeURIComponent(recording)}`
 const kVersion = 1
 
-/** What a window knows of the draft that is kept: the revision that it wrote or read last; none where there was none. */
+/** The revision of the draft that a window wrote or read last; undefined if there was none. */
 export type Revision = string | undefined
 
 export const isKeyOf = (key: string | null, database: string, recording: string) => key === null || key === keyOf(database, recording)
 
 /**
- * Keeps a review in this browser, as a revision that it gives; `changed` where another window has kept or dropped something since `seen`, which then
- * stays as it is; `full` where nothing can be kept.
+ * Stores a review in this browser and returns its revision; returns `changed` if another window has stored or dropped something since `seen`, which is then
+ * left as it is; `full` if nothing can be stored.
  */
 export function keepDraft(
   database: string,
@@ -37,7 +37,7 @@ export function keepDraft(
     return 'full'
   }
 }
-/** What was kept; none where there is nothing that can be used. */
+/** Returns the stored draft; undefined if there is no usable one. */
 export function keptDraft(database: string, recording: string, storage: Storage = localStorage): Draft | undefined {
   try {
     const { version, frames, review, stand } = JSON.parse(storage.getItem(keyOf(database, recording)) ?? 'null') as Draft & { version: number }
@@ -53,15 +53,15 @@ export function revisionOf(database: string, recording: string, storage: Storage
     return undefined
   }
 }
-/** Drops what was kept, unless another window has kept something since. */
+/** Drops the draft, unless another window has stored one since. */
 export function dropDraft(database: string, recording: string, seen: Revision, storage: Storage = localStorage): void {
   try {
     if (revisionOf(database, recording, storage) === seen) storage.removeItem(keyOf(database, recording))
   } catch {
-    // nothing may be kept, so nothing is
+    // storage may be forbidden, in which case nothing is stored
   }
 }
-/** Of a text that is stored; a broken one has none, like one that is not there. */
+/** Returns the revision of a stored text; a broken text has none, like a missing one. */
 function revisionIn(text: string | null): Revision {
   try {
     const { revision, version } = JSON.parse(text ?? '{}') as { revision?: unknown; version?: unknown }
@@ -70,6 +70,6 @@ function revisionIn(text: string | null): Revision {
     return undefined
   }
 }
-/** Whether a draft is of this motion as it is now. */
+/** Whether a draft belongs to this motion in its current state. */
 export const isOf = (draft: Draft, frames: Frames) =>
   draft.frames.count === frames.count && draft.frames.rate === frames.rate && draft.frames.originMs === frames.originMs

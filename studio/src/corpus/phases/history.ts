@@ -1,6 +1,6 @@
 const kMost = 500
 
-/** What was, what is, and what was undone. */
+/** The past states, the current one, and the undone ones. */
 export interface History<T> {
   readonly past: readonly T[]
   readonly now: T
@@ -8,7 +8,7 @@ export interface History<T> {
 }
 
 export const begun = <T>(now: T): History<T> => ({ past: [], now, undone: [] })
-/** With another state; the same one leaves everything as it is. */
+/** Adds a state; an identical state changes nothing. */
 export function pushed<T>(history: History<T>, now: T): History<T> {
   return now === history.now ? history : { past: [...history.past, history.now].slice(-kMost), now, undone: [] }
 }

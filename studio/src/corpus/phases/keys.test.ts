@@ -10,7 +10,7 @@ const key = (name: string, more: { shiftKey?: boolean; ctrlKey?: boolean; altKey
   ...more,
 })
 
-it('has a key for everything, each for one thing', () => {
+it('has a key for every action, and one action per key', () => {
   const keys = kPhaseKeys.flatMap(({ keys: some }) => some as readonly string[])
   expect(new Set(keys).size).toBe(keys.length)
   for (const { keys: some, actions } of kPhaseKeys) {
@@ -18,7 +18,7 @@ it('has a key for everything, each for one thing', () => {
   }
 })
 
-it('tells letters in both cases, and what Shift and Ctrl make of them', () => {
+it('recognizes letters in both cases, and with Shift and Ctrl', () => {
   expect(
     [key('q'), key('Q', { shiftKey: true }), key('Enter'), key('Enter', { shiftKey: true }), key('Backspace'), key('ArrowDown', { shiftKey: true })].map(
       (event) => phaseActionOf(event),
@@ -36,7 +36,7 @@ it('tells letters in both cases, and what Shift and Ctrl make of them', () => {
   ).toEqual(['undo', 'redo', 'redo', undefined, undefined, undefined])
 })
 
-it('leaves letters alone where they are no keys', () => {
+it('ignores letters if they are not shortcuts', () => {
   expect([key('q'), key('Enter'), key('ArrowUp'), key('z', { ctrlKey: true })].map((event) => phaseActionOf(event, false))).toEqual([
     undefined,
     'accept',

@@ -1,4 +1,4 @@
-/** What a key does to phases; all else of the keyboard is the player's. */
+/** The actions of keys on phases; all other keys are the player's. */
 export type PhaseAction =
   | 'before'
   | 'next'
@@ -25,7 +25,7 @@ export type PhaseAction =
   | 'undo'
   | 'redo'
 
-/** One line of the help: the keys as they are printed, what they do in the same order, and the key of its words. */
+/** One line of the help: the keys as printed, their actions in the same order, and the key of its message. */
 export const kPhaseKeys = [
   { keys: ['↑', '↓'], actions: ['before', 'next'], text: 'key_walk' },
   { keys: ['N'], actions: ['nextOpen'], text: 'key_open' },
@@ -47,7 +47,7 @@ export const kPhaseKeys = [
 
 const kPrinted: Readonly<Record<string, string>> = { ArrowUp: '↑', ArrowDown: '↓', Backspace: 'Delete' }
 
-/** What a key pressed does; none where it does nothing here. Without `characters` only keys that type nothing do. */
+/** Returns the action of a pressed key; undefined if it has none here. Without `characters`, only keys that type nothing have one. */
 export function phaseActionOf(event: Pick<KeyboardEvent, 'key' | 'shiftKey' | 'ctrlKey' | 'altKey' | 'metaKey'>, characters = true): PhaseAction | undefined {
   const letter = event.key.length === 1 ? event.key.toUpperCase() : ''
   if ((event.ctrlKey || event.metaKey) && !event.altKey) return letter === 'Z' ? (event.shiftKey ? 'redo' : 'undo') : letter === 'Y' ? 'redo' : undefined

@@ -12,43 +12,43 @@ import { decoded } from '../../annotation/xml_text'
 const kNoTiers: AnnotationDocument = { tiers: [] }
 const kNone: Stand = { right: '', left: '' }
 
-/** The phases of a recording under review: proposed, or taken up where somebody left them; and its annotation beside them. */
+/** The review of a recording's phases, proposed or continued from a draft, together with its annotation. */
 export class PhasesSession {
   status = $state<'opening' | 'open' | 'failed'>('opening')
   fault = $state.raw<unknown>()
-  /** Why nothing could be proposed. */
+  /** Why no proposals could be made. */
   unproposed = $state.raw<unknown>()
   proposing = $state(false)
-  /** Where the review came from. */
+  /** The origin of the review. */
   from = $state<'draft' | 'stored' | 'proposed'>('proposed')
-  /** A review that was kept here, of another motion than the recording has now. */
+  /** A local draft that belongs to an earlier motion of the recording. */
   other = $state.raw<Draft | undefined>()
   history = $state.raw<History<Review>>(begun(kEmpty))
   current = $state<number | undefined>()
-  /** What is annotated, without the tiers that are under review. */
+  /** The annotation without the tiers under review. */
   document = $state.raw<AnnotationDocument>(kNoTiers)
   info = $state.raw<StoredRecording | undefined>()
-  /** Whether what is under review is kept in this browser; no where it has no room. */
+  /** Whether the review is stored in this browser; false if it has no room. */
   kept = $state(true)
-  /** Whether something was changed that is not stored. */
+  /** Whether there are changes that are not stored. */
   changed = $state(false)
   frames: Frames = { originMs: 0, rate: 100, count: 0 }
   /**
-   * Another window has kept something since this one did: its review, or none where it was stored or given up there. Until somebody chooses, nothing is
-   * kept here.
+   * Another window has stored a draft since this one did: its review, or undefined if the review was stored or discarded there. Until the user chooses, no
+   * draft is stored here.
    */
   elsewhere = $state.raw<{ readonly draft?: Draft } | undefined>()
-  /** The annotation as it is stored; what is written is written into it. */
+  /** The stored annotation, into which the phases are written. */
   eaf = $state.raw('')
-  /** Hands whose checked phases somebody else has stored since this review was begun: those stay. */
-  beside = $state.raw<readonly Hand[]>([])
-  /** The checked phases that were stored when it was begun, and that are now. */
+  /** Hands whose checked phases were stored by someone else since this review began: those stay. */
+  conflicting = $state.raw<readonly Hand[]>([])
+  /** The checked phases that were stored when the review began, and those stored now. */
   private begunOn: Stand = kNone
   private stand: Stand = kNone
   private readonly abort = new AbortController()
   private base?: Review
   private seen: Revision
-  /** The annotation as the server has it; none where it has none. */
+  /** The annotation on the server; undefined if it has none. */
   private found?: string
 
   constructor(
@@ -87,7 +87,7 @@ export class PhasesSession {
     }
   }
 
-  /** Puts proposals where nothing is. What the segmenter cannot do is told; phases may be added by hand. */
+  /** Adds proposals where there are no phases. A failure of the segmenter is reported; phases can be added by hand. */
   async propose(): Promise<void> {
     this.proposing = true
     this.unproposed = undefined
@@ -106,17 +106,17 @@ export class PhasesSession {
     removeEventListener('storage', this.onstorage)
   }
 
-  /** Another state of the review, which can be undone. */
+  /** Sets another state of the review, which can be undone. */
   apply(review: Review): void {
     if (review === this.review) return
     this.history = pushed(this.history, review)
     this.keep()
   }
-  /** What it is while a border is dragged: not a step of its own until it is let go. */
+  /** Sets the state while a border is dragged: no undo step until it is released. */
   preview(review: Review): void {
     this.history = { ...this.history, now: review }
   }
-  /** Ends a preview: from `before` on it is one step. */
+  /** Ends a preview: the change since `before` becomes one step. */
   settle(before: Review): void {
     const now = this.review
     this.history = pushed({ ...this.history, now: before }, now)
@@ -130,7 +130,7 @@ export class PhasesSession {
     this.history = redone(this.history)
     this.keep()
   }
-  /** Decides about the current phase, and goes on to the next that is open. */
+  /** Sets the state of the current phase, and moves on to the next open one. */
   decide(state: State): void {
     if (this.current === undefined || !find(this.review, this.current)) return
     this.apply(decided(this.review, this.current, state))
@@ -140,7 +140,7 @@ export class PhasesSession {
     this.apply(acceptedAll(this.review))
   }
 
-  /** Gives up what was not stored. */
+  /** Discards what was not stored. */
   async discard(): Promise<void> {
     this.drop()
     this.other = undefined
@@ -150,7 +150,7 @@ export class PhasesSession {
     if (stored) this.begin(stored, 'stored')
     else await this.propose()
   }
-  /** Takes over a review that was of another motion, as far as it fits. */
+  /** Adopts a review of another motion, as far as it fits. */
   takeOther(): void {
     if (!this.other) return
     const review = within(this.other.review, this.frames),
@@ -164,7 +164,7 @@ export class PhasesSession {
     if (!this.changed) this.drop()
   }
 
-  /** Goes on with what another window made of the review; this one's can be got back by undoing. */
+  /** Adopts the other window's review; undo restores this window's. */
   takeElsewhere(): void {
     const { draft } = this.elsewhere ?? {}
     if (!draft || !isOf(draft, this.frames)) return void this.open()
@@ -183,8 +183,8 @@ export class PhasesSession {
   }
 
   /**
-   * Looks at the recording again: `annotation` where somebody has stored another one since, into which this review is written from now on; `motion`
-   * where it is no more the motion that was reviewed.
+   * Rereads the recording: returns `annotation` if another annotation was stored since, into which this review is written from now on; `motion` if the motion
+   * is no longer the one reviewed.
    */
   async renew(): Promise<'same' | 'annotation' | 'motion'> {
     const { found, info: before } = this
@@ -194,13 +194,13 @@ export class PhasesSession {
     return this.found === found && this.info?.annotation_fingerprint === before?.annotation_fingerprint ? 'same' : 'annotation'
   }
 
-  /** The annotation as it is now was stored: what is decided is kept there. */
+  /** Called after the annotation was stored: decided phases are in the file. */
   async stored(): Promise<void> {
     await this.read()
     this.isOn()
     this.base = this.review
     this.changed = false
-    // What is still open is in no file, so it stays here.
+    // Open phases are in no file, so the draft stays.
     if (inOrder(this.review).every(({ state }) => state !== 'open')) this.drop()
   }
 
@@ -211,7 +211,7 @@ export class PhasesSession {
     dropDraft(this.database, this.recording, this.seen)
     this.seen = this.elsewhere ? this.seen : undefined
   }
-  /** Another window has kept or dropped something. */
+  /** Another window has stored or dropped a draft. */
   private readonly onstorage = ({ key }: StorageEvent): void => {
     if (this.status === 'open' && isKeyOf(key, this.database, this.recording)) this.lookElsewhere()
   }
@@ -228,11 +228,11 @@ export class PhasesSession {
     this.changed = from === 'draft'
     this.current = undefined
   }
-  /** The review was begun where these phases were stored: those that are now, where nothing else is known. */
+  /** Records on which stored phases the review is based: by default those stored now. */
   private isOn(stand = this.stand): void {
     this.begunOn = stand
     const hands = rewritten(stand, this.stand)
-    if (hands.join() !== this.beside.join()) this.beside = hands
+    if (hands.join() !== this.conflicting.join()) this.conflicting = hands
   }
   private keep(): void {
     this.changed = this.review !== this.base
@@ -242,7 +242,7 @@ export class PhasesSession {
     this.kept = done !== 'full'
     if (done !== 'full') this.seen = done.revision
   }
-  /** Asks for the recording and its annotation as they are stored; one that has none gets an empty document. */
+  /** Loads the recording and its stored annotation; a recording without annotation gets an empty document. */
   private async read(): Promise<void> {
     const info = await storedRecording(this.api, this.database, this.recording)
     const bytes = info.annotation_file ? await annotationBytes(this.api, this.database, this.recording) : undefined

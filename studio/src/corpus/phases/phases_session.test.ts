@@ -6,7 +6,7 @@ import { keptDraft } from './draft'
 import { PhasesSession } from './phases_session.svelte'
 import { acceptedAll, decided, kEmpty, put } from './review'
 
-/** What the server has. */
+/** The server's content. */
 let eaf: string, frames: number, print: string
 const api = {
   json: (where: string) =>
@@ -36,37 +36,37 @@ beforeEach(() => {
   ;[eaf, frames, print] = [emptyEaf('r.bvh', ''), 100, '1']
 })
 
-it('sees that the annotation or the motion is another one, and whose phases stay', async () => {
+it('detects a changed annotation or motion, and whose phases are preserved', async () => {
   const session = await opened()
   expect(await session.renew()).toBe('same')
   eaf = eaf.replace('AUTHOR=""', 'AUTHOR="B"')
-  expect([await session.renew(), session.beside, session.eaf.includes('"B"')]).toEqual(['annotation', [], true])
+  expect([await session.renew(), session.conflicting, session.eaf.includes('"B"')]).toEqual(['annotation', [], true])
   eaf = writeChecked(eaf, kTheirs, 'B').text
-  expect([await session.renew(), session.beside, await session.renew(), session.beside]).toEqual(['annotation', ['right'], 'same', ['right']])
-  // One that came after the recording was asked for and before its annotation was.
+  expect([await session.renew(), session.conflicting, await session.renew(), session.conflicting]).toEqual(['annotation', ['right'], 'same', ['right']])
+  // An annotation stored between the requests for the recording and for its annotation.
   print = '2'
   expect([await session.renew(), await session.renew()]).toEqual(['annotation', 'same'])
   // What was stored after that is this review's own.
   await session.stored()
-  expect(session.beside).toEqual([])
+  expect(session.conflicting).toEqual([])
   frames = 90
   expect(await session.renew()).toBe('motion')
   session.close()
 })
 
-it('knows of a review that was taken up again whether somebody stored phases since', async () => {
+it('detects for a continued review whether phases were stored since', async () => {
   const first = await opened()
   first.apply(acceptedAll(first.review))
   first.close()
   eaf = writeChecked(eaf, kTheirs, 'B').text
   const then = await opened()
-  expect([then.from, then.beside]).toEqual(['draft', ['right']])
+  expect([then.from, then.conflicting]).toEqual(['draft', ['right']])
   await then.discard()
-  expect([then.from, then.beside]).toEqual(['stored', []])
+  expect([then.from, then.conflicting]).toEqual(['stored', []])
   then.close()
 })
 
-it('keeps nothing over what another window kept, until somebody chooses', async () => {
+it("overwrites no other window's draft until the user chooses", async () => {
   const one = await opened(),
     two = await opened(),
     stored = () => keptDraft('d', 'r')?.review
@@ -83,7 +83,7 @@ it('keeps nothing over what another window kept, until somebody chooses', async 
   expect([one.elsewhere !== undefined, stored()]).toEqual([true, mine])
   one.keepMine()
   expect(stored()).toEqual(one.review)
-  // The other hears of it, also where it does nothing.
+  // The other window is notified, also while it is idle.
   dispatchEvent(new StorageEvent('storage', { key: 'signweave.review.d/r' }))
   expect([one.elsewhere, two.elsewhere?.draft?.review]).toEqual([undefined, one.review])
   one.close()

@@ -25,10 +25,10 @@ import {
   type Review,
 } from './review'
 
-/** 30 frames a second: no frame but every third begins at a whole ms. */
+/** 30 frames a second: only every third frame begins at a whole ms. */
 const kFrames: Frames = { originMs: 0, rate: 30, count: 300 }
 const phase = (hand: 'right' | 'left', kind: string, begin: number, end: number) => ({ hand, kind, begin, end, state: 'open' as const })
-/** Right: 0–1000 and 1000–2000 touch, 3000–4000 stands alone; left: 500–1500. */
+/** Right: 0–1000 and 1000–2000 touch, 3000–4000 is isolated; left: 500–1500. */
 const kReview: Review = [
   phase('right', 'preparation', 0, 1000),
   phase('right', 'stroke', 1000, 2000),
@@ -41,7 +41,7 @@ const sound = (review: Review) => {
   return review
 }
 
-it('takes proposals at whole frames, in annotation time, without rests', () => {
+it('reads proposals at whole frames, in annotation time, without rests', () => {
   const hands = {
     right: [
       { phase: 'rest', begin_ms: 0, end_ms: 500, confidence: 1 },
@@ -52,7 +52,7 @@ it('takes proposals at whole frames, in annotation time, without rests', () => {
     left: [],
   }
   const review = sound(reviewOf({ proposed: '', hands }, { ...kFrames, originMs: -100 }))
-  // A hold of a third of a frame is none; nothing lies beyond the motion.
+  // A hold of a third of a frame is dropped; nothing extends beyond the motion.
   expect(review.phases.right.map(({ kind, begin, end }) => [kind, begin, end])).toEqual([
     ['stroke', 400, 900],
     ['retraction', 900, 9900],
@@ -60,12 +60,12 @@ it('takes proposals at whole frames, in annotation time, without rests', () => {
   expect(review.phases.right[0].confidence).toBe(0.7)
 })
 
-it('goes from frames to ms and back, never before 0', () => {
+it('converts frames to ms and back, never below 0', () => {
   for (let frame = 0; frame <= 300; ++frame) expect(frameOf(msOf(frame, kFrames), kFrames)).toBe(frame)
   expect([msOf(-1, kFrames), msOf(301, kFrames), msOf(0, { ...kFrames, originMs: -50 })]).toEqual([0, 10_000, 0])
 })
 
-it('goes through both hands by time, and finds what is open', () => {
+it('steps through both hands by time, and finds open phases', () => {
   expect(inOrder(kReview).map(({ id }) => id)).toEqual([1, 4, 2, 3])
   expect([undefined, 1, 3].map((id) => following(kReview, id, 1)?.id)).toEqual([1, 4, undefined])
   expect([undefined, 4].map((id) => following(kReview, id, -1)?.id)).toEqual([3, 1])
@@ -74,7 +74,7 @@ it('goes through both hands by time, and finds what is open', () => {
   expect(following(acceptedAll(kReview), 1, 1, true)).toBeUndefined()
 })
 
-it('accepts, rejects, opens again and changes kinds', () => {
+it('accepts, rejects, reopens and changes kinds', () => {
   const some = sound(retyped(decided(decided(kReview, 1, 'accepted'), 2, 'rejected'), 3, 'hold'))
   expect(progressOf(some)).toEqual({ all: 4, accepted: 1, rejected: 1, open: 2, unseen: 0 })
   expect(find(some, 3)?.kind).toBe('hold')
@@ -82,7 +82,7 @@ it('accepts, rejects, opens again and changes kinds', () => {
   expect(find(decided(some, 2, 'open'), 2)?.state).toBe('open')
 })
 
-it('moves a border that two phases share for both of them', () => {
+it('moves a shared border of two phases for both', () => {
   expect(spans(sound(stepped(kReview, 1, 'end', 1, kFrames)))).toEqual([
     [0, 1033],
     [1033, 2000],
@@ -93,11 +93,11 @@ it('moves a border that two phases share for both of them', () => {
     [667, 2000],
     [3000, 4000],
   ])
-  // The other hand's stay.
+  // The other hand's phases are unchanged.
   expect(spans(stepped(kReview, 2, 'begin', -10, kFrames), 'left')).toEqual([[500, 1500]])
 })
 
-it('moves into a gap, and then pushes what is there', () => {
+it('moves into a gap, and then pushes the neighbour', () => {
   expect(spans(sound(moved(kReview, 2, 'end', 2500, kFrames)))).toEqual([
     [0, 1000],
     [1000, 2500],
@@ -115,7 +115,7 @@ it('moves into a gap, and then pushes what is there', () => {
   ])
 })
 
-it('leaves every phase a frame, and nothing beyond the motion', () => {
+it('leaves at least one frame to every phase, and nothing beyond the motion', () => {
   expect(spans(sound(moved(kReview, 1, 'end', 9000, kFrames)))).toEqual([
     [0, 1967],
     [1967, 2000],
@@ -148,7 +148,7 @@ it('splits at a frame, and merges with the next', () => {
   ])
   expect(split(kReview, 2, 1005, kFrames)).toBe(kReview)
   expect(spans(sound(merged(two, 2)))).toEqual(spans(kReview))
-  // Over a gap, too; what was decided otherwise is open.
+  // Across a gap, too; phases decided differently become open.
   const over = sound(merged(decided(kReview, 2, 'accepted'), 2))
   expect(spans(over)).toEqual([
     [0, 1000],
@@ -158,7 +158,7 @@ it('splits at a frame, and merges with the next', () => {
   expect(merged(kReview, 3)).toBe(kReview)
 })
 
-it('adds a phase where nothing is', () => {
+it('adds a phase in a gap', () => {
   const more = sound(addedTo(kReview, 'right', 'stroke', { begin: 2500, end: 3400 }, kFrames))
   expect(spans(more)).toEqual([
     [0, 1000],
@@ -170,7 +170,7 @@ it('adds a phase where nothing is', () => {
   expect(addedTo(kReview, 'right', 'stroke', { begin: 1500, end: 2500 }, kFrames)).toBe(kReview)
 })
 
-it('fills gaps with proposals, cut where something is', () => {
+it('fills gaps with proposals, cut at existing phases', () => {
   const more = [phase('right', 'hold', 500, 3500), phase('left', 'hold', 600, 700), phase('right', 'stroke', 5000, 6000)].reduce(put, kEmpty)
   const all = sound(filled(kReview, more))
   expect(spans(all)).toEqual([
@@ -183,7 +183,7 @@ it('fills gaps with proposals, cut where something is', () => {
   expect(spans(all, 'left')).toEqual([[500, 1500]])
 })
 
-it('takes of a review of another motion what this one has frames for', () => {
+it("keeps the parts of another motion's review for which there are frames", () => {
   const short = sound(within(decided(kReview, 2, 'accepted'), { originMs: 0, rate: 25, count: 40 }))
   expect([spans(short), spans(short, 'left')]).toEqual([
     [
@@ -195,7 +195,7 @@ it('takes of a review of another motion what this one has frames for', () => {
   expect(short.phases.right[1].state).toBe('accepted')
 })
 
-it('undoes and does again', () => {
+it('undoes and redoes', () => {
   let history = begun(kReview)
   history = pushed(history, decided(kReview, 1, 'accepted'))
   history = pushed(history, history.now)
@@ -207,7 +207,7 @@ it('undoes and does again', () => {
   expect(pushed(redone(history), decided(kReview, 3, 'accepted')).undone).toEqual([])
 })
 
-it('keeps its word through a thousand random operations', () => {
+it('keeps its invariants through a thousand random operations', () => {
   let review = kReview,
     seed = 1
   const random = (below: number) => (seed = (seed * 16807) % 2147483647) % below
@@ -226,7 +226,7 @@ it('keeps its word through a thousand random operations', () => {
   }
 })
 
-it('knows what was accepted with all others, until somebody decides about it or changes it', () => {
+it('remembers what was accepted with all others, until it is decided or changed individually', () => {
   const all = acceptedAll(decided(kReview, 1, 'accepted')),
     ids = inOrder(all).map(({ id }) => id)
   const unseen = (review: typeof all) =>

@@ -2,12 +2,12 @@ import type { Proposals } from '../../api/corpus_answers'
 
 export type Hand = 'right' | 'left'
 export const kHands: readonly Hand[] = ['right', 'left']
-/** What a phase can be, in the order of a movement. */
+/** The kinds of phases, in the order of a movement. */
 export const kKinds = ['preparation', 'stroke', 'hold', 'retraction'] as const
 export type State = 'open' | 'accepted' | 'rejected'
 export type Edge = 'begin' | 'end'
 
-/** A phase of one hand under review; annotation time in whole ms, half-open. `kind` is one of kKinds, or what a file had. */
+/** A phase of one hand under review; annotation time in whole ms, half-open. `kind` is one of kKinds, or the label in a file. */
 export interface Phase {
   readonly id: number
   readonly hand: Hand
@@ -15,12 +15,12 @@ export interface Phase {
   readonly begin: number
   readonly end: number
   readonly state: State
-  /** Of a proposal: the mean probability of its kind. */
+  /** For a proposal: the mean probability of its kind. */
   readonly confidence?: number
-  /** Accepted with all others at once, so that nobody may have looked at it. Whoever decides about it, or changes it, has. */
+  /** Accepted together with all others, so that perhaps no person has looked at it. Deciding about it or changing it resets this. */
   readonly unseen?: boolean
 }
-/** The phases of both hands, those of a hand in time order; they never overlap. Every operation gives another one. */
+/** The phases of both hands, ordered by time for each hand, without overlaps. Immutable: every operation returns a new one. */
 export interface Review {
   readonly phases: Readonly<Record<Hand, readonly Phase[]>>
   /** The next phase's id. */ readonly next: number
@@ -33,14 +33,17 @@ export interface Frames {
   readonly rate: number
   readonly count: number
 }
-/** The begin of a frame, in whole ms as EAF has them; of one that the motion has, or its end. None lies before 0, where EAF has no time. */
+/**
+ * Returns the begin of a frame in whole ms, as in EAF; the frame is clamped to the motion, or to its end. The result is at least 0, because EAF has no negative
+ * times.
+ */
 export function msOf(frame: number, { originMs, rate, count }: Frames): number {
   return Math.max(0, Math.round(originMs + (1000 * Math.min(Math.max(0, frame), count)) / rate))
 }
 export const frameOf = (ms: number, { originMs, rate, count }: Frames) => Math.min(count, Math.max(0, Math.round(((ms - originMs) * rate) / 1000)))
 const snapped = (ms: number, frames: Frames) => msOf(frameOf(ms, frames), frames)
 
-/** What the segmenter proposes, at whole frames. Its rests are what lies between phases. */
+/** Returns the segmenter's proposals, at whole frames. Its rests become the gaps between phases. */
 export function reviewOf({ hands }: Proposals, frames: Frames): Review {
   let review = kEmpty
   for (const hand of kHands) {
@@ -54,14 +57,14 @@ export function reviewOf({ hands }: Proposals, frames: Frames): Review {
   return review
 }
 
-/** All phases of both hands in the order of time. */
+/** Returns all phases of both hands in the order of time. */
 export function inOrder({ phases }: Review): readonly Phase[] {
   return [...phases.right, ...phases.left].sort((a, b) => a.begin - b.begin || (a.hand === b.hand ? 0 : a.hand === 'right' ? -1 : 1))
 }
 export const find = ({ phases }: Review, id: number | undefined): Phase | undefined =>
   phases.right.find((one) => one.id === id) ?? phases.left.find((one) => one.id === id)
 
-/** The phase after one (direction 1) or before it (−1) in time; with `open` the next that is not decided, from the begin again where none follows. */
+/** Returns the phase after one (direction 1) or before it (−1) in time; with `open`, the next undecided one, wrapping around at the end. */
 export function following(review: Review, id: number | undefined, direction: 1 | -1, open = false): Phase | undefined {
   const all = inOrder(review),
     at = all.findIndex((one) => one.id === id)
@@ -74,7 +77,7 @@ export interface Progress {
   readonly accepted: number
   readonly rejected: number
   readonly open: number
-  /** Of the accepted ones. */ readonly unseen: number
+  /** Among the accepted ones. */ readonly unseen: number
 }
 export function progressOf(review: Review): Progress {
   const all = inOrder(review),
@@ -84,15 +87,15 @@ export function progressOf(review: Review): Progress {
 
 export const decided = (review: Review, id: number, state: State) => changed(review, id, { state, unseen: undefined })
 export const retyped = (review: Review, id: number, kind: string) => changed(review, id, { kind, unseen: undefined })
-/** Accepts whatever is not decided, and marks it as accepted unseen. */
+/** Accepts all undecided phases, and marks them as accepted unseen. */
 export function acceptedAll({ phases, next }: Review): Review {
   const accept = (list: readonly Phase[]) => list.map((one): Phase => (one.state === 'open' ? { ...one, state: 'accepted', unseen: true } : one))
   return { phases: { right: accept(phases.right), left: accept(phases.left) }, next }
 }
 
 /**
- * Moves a begin or an end to the nearest frame. What touched there goes along, what is in the way makes room, and every phase keeps at least a frame:
- * the border stops where its neighbour would have none.
+ * Moves a begin or an end to the nearest frame. A touching border moves along, phases in the way are shortened, and every phase keeps at least one frame: the
+ * border stops where its neighbour would become empty.
  */
 export function moved(review: Review, id: number, edge: Edge, ms: number, frames: Frames): Review {
   const one = find(review, id)
@@ -117,17 +120,14 @@ export function stepped(review: Review, id: number, edge: Edge, by: number, fram
 const after = (ms: number, frames: Frames) => msOf(frameOf(ms, frames) + 1, frames)
 const before = (ms: number, frames: Frames) => msOf(frameOf(ms, frames) - 1, frames)
 
-/** Cuts a phase in two at the nearest frame; nothing where one of them would be empty. The second is the newest. */
+/** Splits a phase at the nearest frame; changes nothing if one part would be empty. The second part gets a new id. */
 export function split(review: Review, id: number, ms: number, frames: Frames): Review {
   const one = find(review, id),
     at = snapped(ms, frames)
   if (!one || at <= one.begin || at >= one.end) return review
   return put(changed(review, id, { end: at, unseen: undefined }), { ...one, begin: at, unseen: undefined })
 }
-/**
- * Makes one of a phase and the one after it on its hand, with what lies between them. It is of the first one's kind; where they were decided otherwise
- * it is open.
- */
+/** Merges a phase with the next one of its hand, including the gap between them. The result has the first one's kind; if their states differ, it is open. */
 export function merged(review: Review, id: number): Review {
   const one = find(review, id)
   if (!one) return review
@@ -143,7 +143,7 @@ export function merged(review: Review, id: number): Review {
   }
   return { ...review, phases: { ...review.phases, [one.hand]: list.filter((each) => each !== other).map((each) => (each === one ? whole : each)) } }
 }
-/** Adds an accepted phase where a hand has none: as much of the span as is free around its begin; nothing where that is not. */
+/** Adds an accepted phase in a gap of a hand: the part of the span that is free around its begin; changes nothing if the begin is not free. */
 export function addedTo(review: Review, hand: Hand, kind: string, span: { readonly begin: number; readonly end: number }, frames: Frames): Review {
   const begin = snapped(span.begin, frames),
     list = review.phases[hand]
@@ -151,7 +151,7 @@ export function addedTo(review: Review, hand: Hand, kind: string, span: { readon
   const end = Math.min(snapped(span.end, frames), list.find((one) => one.begin > begin)?.begin ?? Infinity)
   return end > begin ? put(review, { hand, kind, begin, end, state: 'accepted' }) : review
 }
-/** Adds what `more` has where this one has nothing; what reaches into something is cut. */
+/** Adds phases of `more` where this review has none; parts that overlap existing phases are cut off. */
 export function filled(review: Review, more: Review): Review {
   let result = review
   for (const one of inOrder(more)) {
@@ -165,7 +165,7 @@ export function filled(review: Review, more: Review): Review {
   return result
 }
 
-/** Of a review of another motion: what this one has frames for, at whole frames. */
+/** Fits a review of another motion to the frames of this one. */
 export function within(review: Review, frames: Frames): Review {
   let result = kEmpty
   for (const one of inOrder(review)) {
@@ -176,7 +176,7 @@ export function within(review: Review, frames: Frames): Review {
   return result
 }
 
-/** With another phase, which must lie in a gap. */
+/** Adds another phase, which must lie in a gap. */
 export function put({ phases, next }: Review, { hand, kind, begin, end, state, confidence, unseen }: Omit<Phase, 'id'>): Review {
   const one: Phase = { id: next, hand, kind, begin, end, state, ...(confidence === undefined ? {} : { confidence }), ...(unseen ? { unseen } : {}) }
   return { phases: { ...phases, [hand]: [...phases[hand], one].sort((a, b) => a.begin - b.begin) }, next: next + 1 }
@@ -187,7 +187,7 @@ function changed(review: Review, id: number, change: Partial<Phase>): Review {
   return { ...review, phases: { right: of(review.phases.right), left: of(review.phases.left) } }
 }
 
-/** What is wrong with a review that came from outside: empty where nothing is. */
+/** Returns the faults of a review from outside; empty if it is valid. */
 export function faultsOf({ phases, next }: Review): readonly string[] {
   const faults: string[] = []
   const ids = new Set<number>()

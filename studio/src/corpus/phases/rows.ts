@@ -2,7 +2,7 @@ import type { AnnotationDocument, Tier } from '../../annotation/document'
 import type { Borders } from '../../timeline/borders'
 import { kHands, type Edge, type Hand, type Phase, type Review } from './review'
 
-/** What the timeline shows: a row for each hand, and under them what is annotated. */
+/** Returns the rows of the timeline: one for each hand, and the annotation below them. */
 export function rowsOf(
   review: Review,
   current: number | undefined,
@@ -24,10 +24,13 @@ export function rowsOf(
   return { tiers: [...rows, ...document.tiers] }
 }
 
-/** The phase of a row. */
+/** Returns the phase in a row. */
 export const phaseAt = (review: Review, tier: number, at: number): Phase | undefined => (kHands[tier] ? review.phases[kHands[tier]][at] : undefined)
 
-/** The end of a phase that lies nearest to a time, within reach; of two that touch, that of the current phase, else the one whose side it is. */
+/**
+ * Returns the border nearest to a time, within reach; if two phases touch there, that of the current phase, otherwise that of the phase on the side of the
+ * time.
+ */
 export function edgeNear(review: Review, tier: number, ms: number, reach: number, current?: number): { readonly id: number; readonly edge: Edge } | undefined {
   let best: { id: number; edge: Edge } | undefined,
     least = reach
@@ -43,7 +46,7 @@ export function edgeNear(review: Review, tier: number, ms: number, reach: number
   return best
 }
 
-/** Borders for the timeline: `move` is told what is dragged where, `done` when it is let go. */
+/** Returns borders for the timeline: `move` is called during a drag, `done` when it ends. */
 export function bordersOf(
   review: () => Review,
   current: () => number | undefined,

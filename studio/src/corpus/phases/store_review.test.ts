@@ -2,7 +2,7 @@ import { expect, it, vi } from 'vitest'
 import type { Api } from '../../api/client'
 import * as calls from '../../api/corpus_calls'
 import type { HandName, Inspected, TierReport } from '../../api/corpus_answers'
-import { choicesOf, filesFor, isTold, sendReview } from './store_review'
+import { choicesOf, filesFor, isDefault, sendReview } from './store_review'
 
 const tier = (name: string, role: TierReport['role'], hand: HandName = 'both'): TierReport => ({
   tier: name,
@@ -19,23 +19,23 @@ const kWritten = [
 ]
 const kinds = (one: Inspected) => choicesOf(one, kWritten).map(({ kind }) => kind)
 
-it('leaves the phases of signs where they come from, where that is another tier', () => {
+it("keeps the source of the signs' phases if it is another tier", () => {
   const one = report(tier('Gloss', 'signs'), tier('Phase', 'phases'), tier('RH', 'phases'))
   expect(choicesOf(one, kWritten)[0]).toEqual({ kind: 'now', tiers: ['Phase'] })
-  expect([isTold(one, { kind: 'now', tiers: ['Phase'] }), isTold(one, { kind: 'both', tiers: ['RH', 'Phase'] })]).toEqual([false, true])
+  expect([isDefault(one, { kind: 'now', tiers: ['Phase'] }), isDefault(one, { kind: 'both', tiers: ['RH', 'Phase'] })]).toEqual([false, true])
 })
 
-it('takes the hand that was taken before, else the one that does more', () => {
+it('takes the hand used before, otherwise the one with more phases', () => {
   expect(kinds(report(tier('Gloss', 'signs'), tier('RH', 'phases')))).toEqual(['right', 'left', 'both'])
   expect(kinds(report(tier('Gloss', 'signs')))).toEqual(['left', 'right', 'both'])
 })
 
-it('takes both hands where each has signs of its own, and asks nothing where there are none', () => {
+it('takes both hands if each has its own signs, and offers no choice without signs', () => {
   expect(kinds(report(tier('Gloss R', 'signs', 'right'), tier('Gloss L', 'signs', 'left')))).toEqual(['both', 'left', 'right'])
   expect(kinds(report(tier('Note', '')))).toEqual([])
 })
 
-it('gives up its upload where it is aborted or fails', async () => {
+it('discards its upload if it is aborted or fails', async () => {
   vi.spyOn(calls, 'openUpload').mockResolvedValue('u')
   const send = vi.spyOn(calls, 'sendFile').mockRejectedValueOnce(new Error('no'))
   const discarded = vi.spyOn(calls, 'discardUpload').mockResolvedValue()
@@ -49,12 +49,12 @@ it('gives up its upload where it is aborted or fails', async () => {
   send.mockResolvedValue()
   await expect(sendReview(api, 'd', 'r', '<x/>', new AbortController().signal)).rejects.toThrow('aborted')
   expect([discarded.mock.calls.length, cancelled.mock.calls.length, discarded.mock.lastCall?.[2]]).toEqual([2, 1, 'u'])
-  // Not before the job is over, for the server refuses that.
+  // Not before the job is over, because the server refuses that.
   expect(steps).toEqual(['discarded', 'ended', 'ended', 'discarded'])
   vi.restoreAllMocks()
 })
 
-it('sends the document of a recording whose name no file can have under another, with a table that tells it', () => {
+it('sends the document of a recording whose name is no valid file name under another name, with a table that gives it', () => {
   expect(filesFor('walk')).toEqual({ file: 'walk.eaf' })
   expect(filesFor('day 1/walk').file).toBe('walk.eaf')
   expect(filesFor('day 1/walk, "far"').table).toMatch(/^motion,.*,name\n,"walk, ""far"".eaf",,,,,"day 1\/walk, ""far"""\n$/)

@@ -9,15 +9,15 @@ import type { Written } from './checked_tiers'
 
 const kTable = 'pairs.csv'
 
-/** Which tiers the phases of signs come from: a choice, and the tiers that it means. */
+/** A choice of the tiers from which the phases of signs are taken. */
 export interface PhaseChoice {
   readonly kind: 'now' | 'right' | 'left' | 'both'
   readonly tiers: readonly string[]
 }
 
 /**
- * What can be chosen, the best first; none where there are no signs. Tiers that were in use stay so where they are others than the checked ones; else the
- * hand that does more, for a sign of both hands would have the phases of both, one over the other. Signs with a tier for each hand take both.
+ * Returns the choices, best first; empty if there are no signs. Tiers in use other than the checked ones come first; otherwise the hand with more phases,
+ * because with both hands a two-handed sign would have overlapping phases of both. Signs with a tier for each hand take both.
  */
 export function choicesOf(report: Inspected, written: Written['tiers']): readonly PhaseChoice[] {
   const signs = report.tiers?.filter(({ role }) => role === 'signs') ?? []
@@ -33,29 +33,29 @@ export function choicesOf(report: Inspected, written: Written['tiers']): readonl
   return signs.every(({ hand }) => hand !== 'both') && signs.length > 1 ? [...own, ...both, ...hands] : [...own, ...hands, ...both]
 }
 
-/** Whether a choice is what the server would do without being told. */
-export function isTold(report: Inspected, { tiers }: PhaseChoice): boolean {
+/** Whether a choice is what the server does by default. */
+export function isDefault(report: Inspected, { tiers }: PhaseChoice): boolean {
   const taken = report.tiers?.filter(({ role }) => role === 'phases').map(({ tier }) => tier) ?? []
   return taken.length === tiers.length && tiers.every((tier) => taken.includes(tier))
 }
 
-/** A document that lies with the server, ready to be stored; `body` says which recording it is of. */
+/** A document on the server, ready to be stored; `body` identifies its recording. */
 export interface Sent {
   readonly upload: string
   readonly body: object
   readonly report: Inspected | undefined
 }
 
-/** The name that a recording's document is sent under, and the table that says which recording it is of where that name does not. */
+/** Returns the name under which a recording's document is sent, and a table that names the recording if the file name does not. */
 export function filesFor(recording: string): { readonly file: string; readonly table?: string } {
   if (isPlain(`${recording}.eaf`)) return { file: `${recording}.eaf` }
-  // A folder in front, or what no file may be called.
+  // The name contains a folder, or characters that are not allowed in file names.
   const last = `${recording.split('/').at(-1)}.eaf`,
     file = isPlain(last) ? last : 'review.eaf'
   return { file, table: tableOf([{ motion: null, annotation: file, face: null, signer: '', name: recording }]) }
 }
 
-/** Sends the document alone, and has it looked at. */
+/** Sends only the document, and has it inspected. */
 export async function sendReview(api: Api, database: string, recording: string, text: string, signal: AbortSignal): Promise<Sent> {
   const upload = await openUpload(api, database)
   const { file, table } = filesFor(recording),
@@ -68,7 +68,7 @@ export async function sendReview(api: Api, database: string, recording: string, 
     const { recordings } = await api.result<Inspection>(job, () => {}, signal)
     return { upload, body, report: recordings[0] }
   } catch (fault) {
-    // A server has room for a few uploads only; one that is still looked at cannot be given up before that ends.
+    // A server holds only a few uploads; one under inspection cannot be discarded before that ends.
     if (job) {
       await cancelJob(api, job.job).catch(() => {})
       await api.result(job).catch(() => {})
@@ -77,7 +77,7 @@ export async function sendReview(api: Api, database: string, recording: string, 
     throw fault
   }
 }
-/** Stores what was sent: it takes the place of the recording's annotation where that is still `over`. */
+/** Stores the sent document: it replaces the recording's annotation if that is still `over`. */
 export async function storeSent(
   api: Api,
   database: string,
@@ -85,10 +85,10 @@ export async function storeSent(
   choice: PhaseChoice | undefined,
   over: string,
 ): Promise<Imported> {
-  const body = { ...about, if_annotation: over, ...(choice && report && !isTold(report, choice) ? { phase_tier: choice.tiers } : {}) }
+  const body = { ...about, if_annotation: over, ...(choice && report && !isDefault(report, choice) ? { phase_tier: choice.tiers } : {}) }
   const { recordings } = await api.result<ImportResult>(await beginUpload(api, database, upload, 'import', body))
   return recordings[0]
 }
 export function forgetSent(api: Api, database: string, sent: Sent | undefined): void {
-  if (sent) discardUpload(api, database, sent.upload).catch(() => {}) // it goes by itself when nobody uses it
+  if (sent) discardUpload(api, database, sent.upload).catch(() => {}) // the server removes it after a time without use
 }

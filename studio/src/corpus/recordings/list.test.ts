@@ -1,6 +1,6 @@
 import { expect, it } from 'vitest'
 import type { StoredRow } from '../../api/corpus_answers'
-import { rowsOf, signersOf, type Wish } from './list'
+import { rowsOf, signersOf, type ListOptions } from './list'
 
 const row = (name: string, signer: string, frames?: number): StoredRow => ({
   name,
@@ -11,9 +11,9 @@ const row = (name: string, signer: string, frames?: number): StoredRow => ({
   ...(frames === undefined ? {} : { frames, frames_per_second: 100, joints: 1, tracks: [] }),
 })
 const kRows = [row('day 10', 'Zoé', 300), row('day 2', 'Ada', 300), row('words', 'Ada'), row('Day 1', 'Zoé', 900)]
-const names = (wish: Partial<Wish>) => rowsOf(kRows, { text: '', sort: 'name', descending: false, ...wish }).map(({ name }) => name)
+const names = (options: Partial<ListOptions>) => rowsOf(kRows, { text: '', sort: 'name', descending: false, ...options }).map(({ name }) => name)
 
-it('sorts by name as people count, and by numbers with what has none at the end', () => {
+it('sorts by name in natural order, and by numbers with missing ones at the end', () => {
   expect(names({})).toEqual(['Day 1', 'day 2', 'day 10', 'words'])
   expect(names({ sort: 'seconds' })).toEqual(['day 2', 'day 10', 'Day 1', 'words'])
   expect(names({ sort: 'seconds', descending: true })).toEqual(['Day 1', 'day 2', 'day 10', 'words'])

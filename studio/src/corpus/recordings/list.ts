@@ -1,9 +1,9 @@
 import type { StoredRow } from '../../api/corpus_answers'
 
 export type SortBy = 'name' | 'signer' | 'seconds' | 'frames' | 'rate' | 'tracks' | 'defects' | 'storage'
-export interface Wish {
+export interface ListOptions {
   readonly text: string
-  /** None: all of them. */ readonly signer?: string
+  /** Undefined: all signers. */ readonly signer?: string
   readonly sort: SortBy
   readonly descending: boolean
 }
@@ -22,8 +22,8 @@ const kValues: Readonly<Record<SortBy, (row: StoredRow) => string | number | und
 }
 const collator = new Intl.Collator(undefined, { numeric: true })
 
-/** The rows that are wanted, in the order that is wanted; what has no value stands at the end, and names decide between equals. */
-export function rowsOf(rows: readonly StoredRow[], { text, signer, sort, descending }: Wish): readonly StoredRow[] {
+/** Returns the matching rows in the requested order; rows without a value come last, and equal rows are ordered by name. */
+export function rowsOf(rows: readonly StoredRow[], { text, signer, sort, descending }: ListOptions): readonly StoredRow[] {
   const wanted = text.trim().toLowerCase(),
     value = kValues[sort],
     sign = descending ? -1 : 1
@@ -37,5 +37,5 @@ export function rowsOf(rows: readonly StoredRow[], { text, signer, sort, descend
   })
 }
 
-/** Who signs, in the order of the alphabet. */
+/** Returns the signers, in alphabetical order. */
 export const signersOf = (rows: readonly StoredRow[]): readonly string[] => [...new Set(rows.map(({ signer }) => signer))].sort(collator.compare)

@@ -4,7 +4,7 @@ import type { Showing, Strand } from '../../viewer/showing'
 import { Transport } from '../../viewer/transport'
 import type { Item, Settings, Trial } from './study'
 
-/** What is shown, and the version of the program that made it. */
+/** The motion shown, and the version of the program that generated it. */
 interface Made {
   readonly strands: readonly Strand[]
   readonly version: string
@@ -15,18 +15,18 @@ interface Opened {
   readonly close: () => void
 }
 
-/** What a trial shows: the capture and what was made, as A and B or one alone, told apart by nothing but their motion. */
+/** The motions of a trial: the captured and the generated one, as A and B or one alone, distinguished by nothing but their motion. */
 export class BlindShow implements Showing {
   readonly transport = new Transport()
   readonly oneCamera = true
   strands = $state.raw<readonly Strand[]>([])
   arrivals = $state(0)
-  /** Of the program that made what is shown. */
+  /** The version of the program that generated the motion. */
   version = ''
   private current?: Opened
   private next?: Opened
 
-  /** `dressed` resolves when the character can be drawn, so that both bodies are there at once. */
+  /** `dressed` resolves when the character can be drawn, so that both bodies appear at once. */
   constructor(
     private readonly api: Api,
     private readonly database: string,
@@ -36,7 +36,7 @@ export class BlindShow implements Showing {
     this.transport.repeat = true
   }
 
-  /** Shows a trial; nothing of it before all of it is here. Rejects where it cannot be had, and can be called again. */
+  /** Shows a trial once all of it is loaded. Rejects if it cannot be loaded, and can then be called again. */
   async show(item: Item, trial: Trial): Promise<void> {
     const opened = this.open(item, trial)
     if (this.current !== opened) this.current?.close()
@@ -62,7 +62,7 @@ export class BlindShow implements Showing {
     }
   }
 
-  /** Fetches what comes next while somebody looks. */
+  /** Loads the next trial while the current one is viewed. */
   prepare(item: Item, trial: Trial): void {
     const opened = this.open(item, trial)
     if (opened === this.next || opened === this.current) return
@@ -70,7 +70,7 @@ export class BlindShow implements Showing {
     this.next = opened
     opened.made.catch(() => {
       if (this.next === opened) this.next = undefined
-    }) // it is asked for again when its turn comes
+    }) // it is requested again when its turn comes
   }
 
   timeOf(): (seconds: number) => number {
@@ -86,15 +86,15 @@ export class BlindShow implements Showing {
   private open(item: Item, { item: number, side }: Trial): Opened {
     const key = `${number} ${side}`
     for (const known of [this.next, this.current]) if (known?.key === key) return known
-    const wishes = { from: item.begin, to: item.end, character: this.settings.character ?? undefined }
-    const remade = item.method ? { ...wishes, remake: `${item.from}..${item.to}`, transition: item.method } : wishes
-    // In the order of the sides, so that not even the order of the calls tells more than the screen.
-    const both = side === 'left' ? [wishes, remade] : [remade, wishes]
+    const options = { from: item.begin, to: item.end, character: this.settings.character ?? undefined }
+    const regenerated = item.method ? { ...options, remake: `${item.from}..${item.to}`, transition: item.method } : options
+    // In the order of the sides, so that not even the order of the calls reveals the answer.
+    const both = side === 'left' ? [options, regenerated] : [regenerated, options]
     const sources = (this.settings.mode === 'single' ? both.slice(0, 1) : both).map(
       (one, i, all) => new PieceSource(this.api, this.database, item.recording, one, all.length > 1 ? 'AB'[i] : ''),
     )
     const strands = Promise.all(sources.map(async (source): Promise<Strand> => ({ role: 'blind', source, motion: await source.open() })))
-    // The server may be another program than on the day when the study was set up.
+    // The server may run another program version than when the study was set up.
     const made = Promise.all([strands, this.api.version(), this.dressed()]).then(([strands, version]) => ({ strands, version: `signweave ${version}` }))
     return { key, made, close: () => sources.forEach((source) => source.close()) }
   }

@@ -2,26 +2,26 @@ import type { Annotation, AnnotationDocument } from '../../annotation/document'
 import { kindOf, signTier } from '../../timeline/tier_kind'
 
 /** Ms of annotation time; half-open. */
-export interface Stretch {
+export interface Span {
   readonly begin: number
   readonly end: number
 }
-/** What lies between two signs. */
+/** The transition between two signs. */
 export interface Gap {
   readonly from: number
   readonly to: number
   /** `VANNES MATIN`. */ readonly signs: string
 }
 
-/** Shorter ones nobody sees; in longer ones the signer pauses. Ms. */
+/** Shorter transitions are not perceptible; in longer ones the signer pauses. Ms. */
 export const kShortest = 80
 export const kLongest = 2500
-/** As far as any method looks to the sides of a gap, ms. */
+/** The context on both sides of a gap that any method uses, ms. */
 const kNeeded = 300
 
 /**
- * The annotated transitions, as docs/evaluation.md has them: from the end of one sign's last stroke to the begin of the next sign's
- * first; in a recording whose signs have no phases the gaps between signs.
+ * Returns the annotated transitions as defined in docs/evaluation.md: from the end of one sign's last stroke to the begin of the next sign's first; in a
+ * recording whose signs have no phases, the gaps between signs.
  */
 export function gapsOf(document: AnnotationDocument): readonly Gap[] {
   const signs = signTier(document)
@@ -46,8 +46,8 @@ export function gapsOf(document: AnnotationDocument): readonly Gap[] {
 }
 const isPhase = (name: string, depth: number, label: string) => ['preparation', 'stroke', 'retraction'].includes(kindOf(name, depth, label))
 
-/** From the first stroke to the last of one sign, of either hand. */
-function strokesOf({ begin, end }: Annotation, strokes: readonly Annotation[]): Stretch | undefined {
+/** Returns the span from the first stroke to the last of one sign, of either hand. */
+function strokesOf({ begin, end }: Annotation, strokes: readonly Annotation[]): Span | undefined {
   let low = 0,
     high = strokes.length
   while (low < high) {
@@ -64,8 +64,8 @@ function strokesOf({ begin, end }: Annotation, strokes: readonly Annotation[]): 
   return first === undefined ? undefined : { begin: first, end: last }
 }
 
-/** Those that can be made again and looked at: neither too short nor too long, with captured frames on both sides and nothing broken near. */
-export function usable(gaps: readonly Gap[], captured: Stretch, broken: readonly Stretch[]): readonly Gap[] {
+/** Returns the transitions that can be regenerated and judged: neither too short nor too long, with captured frames on both sides and no defect nearby. */
+export function usable(gaps: readonly Gap[], captured: Span, broken: readonly Span[]): readonly Gap[] {
   return gaps.filter(
     ({ from, to }) =>
       to - from >= kShortest &&
@@ -76,7 +76,7 @@ export function usable(gaps: readonly Gap[], captured: Stretch, broken: readonly
   )
 }
 
-/** What is shown of it: with `around` ms on both sides, as far as there is capture. */
-export function shownOf({ from, to }: Gap, captured: Stretch, around: number): Stretch {
+/** Returns the span shown: with `around` ms on both sides, as far as there is capture. */
+export function shownOf({ from, to }: Gap, captured: Span, around: number): Span {
   return { begin: Math.max(Math.ceil(captured.begin), from - around), end: Math.min(Math.floor(captured.end), to + around) }
 }

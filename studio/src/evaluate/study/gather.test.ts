@@ -25,7 +25,7 @@ const apiOf = (annotation: Record<string, string | Error>) =>
   }) as unknown as Api
 const gathered = (api: Api, names: string[]) => gatherSources(api, 'demo', names, 500, () => {}, new AbortController().signal)
 
-it('names the recordings whose annotation cannot be read, and goes on with the others', async () => {
+it('names the recordings whose annotation cannot be read, and continues with the others', async () => {
   const api = apiOf({
     a: kEaf,
     cut: kEaf.slice(0, 90),
@@ -40,12 +40,12 @@ it('names the recordings whose annotation cannot be read, and goes on with the o
   ])
   expect(leftOut).toEqual(['cut', 'bad'])
 })
-it("leaves nothing out for a fault that is no recording's", async () => {
+it('leaves nothing out for a fault that is not specific to a recording', async () => {
   await expect(gathered(apiOf({ a: new StudioFault('unreachable') }), ['a'])).rejects.toThrow('unreachable')
   await expect(gathered(apiOf({ a: new ApiError('a token', 401, 'unauthorized') }), ['a'])).rejects.toThrow('a token')
 })
 
-it('knows recordings again by more than their names', () => {
+it('identifies recordings by more than their names', () => {
   const row = (name: string, frames = 300) => ({ name, frames, frames_per_second: 100, joints: 60 }) as RecordingRow
   const items = ['b', 'a', 'b'].map((recording) => ({ recording }) as Item),
     recordings = marksOf(items, [row('a'), row('b'), row('c')])
@@ -53,6 +53,6 @@ it('knows recordings again by more than their names', () => {
   const study = { items, recordings } as unknown as Study
   expect(strangersOf(study, [row('a'), row('b')])).toEqual([])
   expect(strangersOf(study, [row('a', 299), row('c')])).toEqual(['a', 'b'])
-  // An older study knows the names alone.
+  // An older study contains only the names.
   expect(strangersOf({ items } as unknown as Study, [row('a', 299)])).toEqual(['b'])
 })

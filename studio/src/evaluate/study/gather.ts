@@ -6,44 +6,44 @@ import { gapsOf, shownOf, usable, type Gap } from './gaps'
 import { Random } from './random'
 import type { Source } from './study'
 
-/** Recordings that are looked through: of more, so many at random. */
+/** The maximum number of recordings examined: out of more, this many are chosen at random. */
 export const kMostRecordings = 200
 
-/** Frames that are no good, as the server tells of a recording. */
+/** Defective frames, as reported by the server for a recording. */
 interface Broken {
   readonly defects?: readonly { readonly first_frame?: number; readonly end_frame?: number }[]
 }
 
-/** Which of a database's recordings a study of this seed takes its gaps from. */
+/** Returns the recordings of a database from which a study with this seed takes its gaps. */
 export function sampled(recordings: readonly string[], seed: number): readonly string[] {
   return recordings.length <= kMostRecordings ? recordings : new Random(seed, 'recordings').shuffled(recordings).slice(0, kMostRecordings).toSorted()
 }
 
-/** What can be shown, and the recordings whose annotation cannot be read. */
+/** The usable gaps, and the recordings whose annotation cannot be read. */
 export interface Gathered {
   readonly sources: readonly Source[]
   readonly leftOut: readonly string[]
 }
 
-/** The gaps of some recordings that can be shown; `told` hears how many recordings have been read. Recordings without annotation have none. */
+/** Returns the usable gaps of some recordings; `onprogress` is called with the number of recordings read so far. Recordings without annotation have none. */
 export async function gatherSources(
   api: Api,
   database: string,
   recordings: readonly string[],
   around: number,
-  told: (done: number) => void,
+  onprogress: (done: number) => void,
   signal: AbortSignal,
 ): Promise<Gathered> {
   const sources: Source[] = [],
     leftOut: string[] = []
   for (const [done, recording] of recordings.entries()) {
     if (signal.aborted) throw signal.reason
-    told(done)
+    onprogress(done)
     let info: RecordingInfo & Broken, eaf: string
     try {
       ;[info, eaf] = await Promise.all([api.recording(database, recording), api.annotation(database, recording)])
     } catch (fault) {
-      if (!(fault instanceof ApiError) || ![400, 404, 422, 500].includes(fault.status)) throw fault // it is not this recording's alone
+      if (!(fault instanceof ApiError) || ![400, 404, 422, 500].includes(fault.status)) throw fault // the fault is not specific to this recording
       if (fault.status !== 404) leftOut.push(recording)
       continue
     }

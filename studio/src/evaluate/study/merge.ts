@@ -1,10 +1,10 @@
 import { sessionOf, type Session, type Study } from './study'
 
-/** Whether two are the same study, each with votes of its own. */
+/** Whether two states belong to the same study, each with its own votes. */
 export const isSame = (a: Study, b: Study) =>
   a.at === b.at && a.database === b.database && a.settings.seed === b.settings.seed && a.items.length === b.items.length
 
-/** What two tabs know of one study: no vote of either is lost. Of one trial that both answered the vote that `theirs` already keeps stays. */
+/** Merges two tabs' states of one study without losing a vote of either. If both answered one trial, the vote already stored in `theirs` wins. */
 export function merged(mine: Study, theirs: Study): Study {
   const own = new Map(mine.sessions.map((session) => [session.participant, session]))
   const known = new Set(theirs.sessions.map(({ participant }) => participant))
@@ -22,7 +22,7 @@ function fuller(mine: Session, theirs: Session): Session {
 
 export const votesIn = (study: Study) => study.sessions.reduce((sum, { answers }) => sum + answers.length, 0)
 
-/** The study with whose turn it was, where they are still in it. */
+/** Sets the current participant, if the study still contains them. */
 export function withTurn({ current: _, ...study }: Study, participant: string | undefined): Study {
   const there = { ...study, current: participant }
   return participant !== undefined && sessionOf(there) ? there : study

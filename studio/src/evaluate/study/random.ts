@@ -1,4 +1,4 @@
-/** Numbers that look random and are the same for the same seed, on every machine (mulberry32, seeded by FNV-1a). */
+/** Pseudorandom numbers that are the same for the same seed on every machine (mulberry32, seeded by FNV-1a). */
 export class Random {
   private state: number
 
@@ -17,12 +17,12 @@ export class Random {
     return ((t ^ (t >>> 14)) >>> 0) / 4294967296
   }
 
-  /** A whole number in [0, count). */
+  /** An integer in [0, count). */
   below(count: number): number {
     return Math.floor(this.next() * count)
   }
 
-  /** The same things in another order (Fisher and Yates). */
+  /** Returns the elements in random order (Fisher and Yates). */
   shuffled<T>(things: readonly T[]): T[] {
     const out = [...things]
     for (let i = out.length - 1; i > 0; --i) {

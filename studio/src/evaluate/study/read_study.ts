@@ -1,7 +1,7 @@
 import { PageFault } from '../fault'
 import { kFluencies, kFormat, kLabels, stepsOf, type Settings, type Study } from './study'
 
-/** Reads what was saved as JSON. Throws where it is something else, or where anything of it is not as the page needs it. */
+/** Reads a study saved as JSON. Throws if the text is something else, or if any field that the page needs is invalid. */
 export function readStudy(text: string): Study {
   let study: unknown
   try {

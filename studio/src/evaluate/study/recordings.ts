@@ -1,7 +1,7 @@
 import type { RecordingRow } from '../../api/answers'
 import type { Item, Study } from './study'
 
-/** By what a recording is known again on another day or another computer. */
+/** A fingerprint by which a recording is recognised later or on another computer. */
 const markOf = ({ frames, frames_per_second, joints }: RecordingRow) => `${frames} frames, ${frames_per_second} per second, ${joints} joints`
 
 export function marksOf(items: readonly Item[], rows: readonly RecordingRow[]): Readonly<Record<string, string>> {
@@ -14,7 +14,7 @@ export function marksOf(items: readonly Item[], rows: readonly RecordingRow[]): 
   )
 }
 
-/** The recordings of a study that a database has not got, or that are others there: what would be shown is not what was meant. */
+/** Returns the recordings of a study that a database lacks, or that differ there: the trials would show something else than intended. */
 export function strangersOf(study: Study, rows: readonly RecordingRow[]): readonly string[] {
   const by = new Map(rows.map((row) => [row.name, row]))
   return [...new Set(study.items.map(({ recording }) => recording))].toSorted().filter((name) => {

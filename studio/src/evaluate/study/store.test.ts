@@ -65,7 +65,7 @@ class Memory {
     this.kept.delete(key)
   }
 }
-/** The storage that all tabs share; what a tab has for itself is there for whichever tab is at work. */
+/** The storage shared by all tabs, and the storage of the current tab. */
 let shared: Memory
 const tabs = new Map<Shelf, Memory>()
 const at = (shelf: Shelf) => {
@@ -84,7 +84,7 @@ beforeEach(() => {
 })
 
 describe('a study in several tabs', () => {
-  it('keeps the votes of all of them, and whose turn it is in each', () => {
+  it('keeps the votes of all tabs, and the current participant of each', () => {
     const one = tab(),
       two = tab()
     let a = at(one).write(begin(made(), 'P01', 'deaf'))
@@ -96,12 +96,12 @@ describe('a study in several tabs', () => {
     b = at(two).write(keepDraft(b, { rating: 2 }))
     expect(votes(at(one).read().study)).toEqual({ P01: ['a1', 'a2'], P02: ['b1'] })
     expect([a.current, at(one).read().study?.current, at(two).read().study?.current]).toEqual(['P01', 'P01', 'P02'])
-    // Who hears of it later has the same, and the own session as it was, so that the trial that is looked at goes on.
+    // A tab notified later has the same, and its own session unchanged, so that the trial on screen continues.
     const heard = at(one).heard(a).study!
     expect(votes(heard)).toEqual(votes(b))
     expect(sessionOf(heard)).toBe(sessionOf(a))
   })
-  it('counts one vote of a trial that both answered: the first', () => {
+  it('counts one vote for a trial answered in both: the first', () => {
     const one = tab(),
       two = tab()
     const a = at(one).write(begin(made(), 'P01', 'deaf')),
@@ -111,7 +111,7 @@ describe('a study in several tabs', () => {
     expect(votes(both)).toEqual({ P01: ['first'] })
     expect(both.sessions[0].fluency).toBe('deaf')
   })
-  it('puts a vote back that another tab wrote over', () => {
+  it('restores a vote that another tab overwrote', () => {
     const one = tab(),
       two = tab()
     const a = at(one).write(begin(made(), 'P01', 'deaf')),
@@ -121,7 +121,7 @@ describe('a study in several tabs', () => {
     expect(votes(at(one).heard(voted).study)).toEqual({ P01: ['lost'] })
     expect(votes(at(two).read().study)).toEqual({ P01: ['lost'] })
   })
-  it('is unblinded, deleted or another one for all', () => {
+  it('is unblinded, deleted or replaced for all', () => {
     const one = tab(),
       two = tab()
     const a = at(one).write(vote(begin(made(), 'P01', 'deaf'), answer('a')))
@@ -138,8 +138,8 @@ describe('a study in several tabs', () => {
   })
 })
 
-describe('what the browser keeps', () => {
-  it('stays where it cannot be read, and is written over by nothing', () => {
+describe('the stored text', () => {
+  it('stays if it is unreadable, and is never overwritten', () => {
     const shelf = tab()
     shared.setItem(shelf.key, '{"format":"signweave study 9"}')
     expect(at(shelf).read()).toEqual({ unreadable: true })
@@ -149,7 +149,7 @@ describe('what the browser keeps', () => {
     shelf.remove()
     expect(shelf.read()).toEqual({})
   })
-  it('says where it keeps nothing', () => {
+  it('reports if nothing can be stored', () => {
     shared.full = true
     expect(() => at(tab()).write(made())).toThrow('noStorage')
     vi.unstubAllGlobals()
@@ -162,7 +162,7 @@ describe('a file of a study', () => {
   const with_ = (more: object) => JSON.stringify({ ...good, ...more })
   const session = (more: object) => with_({ sessions: [{ ...good.sessions[0], ...more }] })
   const setting = (more: object) => with_({ settings: { ...settings, ...more } })
-  it('is read as it was', () => {
+  it('is read unchanged', () => {
     expect(readStudy(JSON.stringify(good))).toEqual(good)
     expect(readStudy(JSON.stringify(leave({ ...good, recordings: { a: 'x' }, leftOut: ['b'] })))).toBeTruthy()
   })
@@ -190,7 +190,7 @@ describe('a file of a study', () => {
       'odd recordings': with_({ recordings: [1] }),
       'odd version': session({ answers: [{ ...good.sessions[0].answers[0], version: 3 }] }),
     }),
-  )('is refused with %s', (_, text) => {
+  )('is rejected with %s', (_, text) => {
     expect(() => readStudy(text)).toThrow('noStudy')
   })
 })

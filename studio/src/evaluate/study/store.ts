@@ -3,17 +3,17 @@ import { isSame, merged, votesIn, withTurn } from './merge'
 import { readStudy } from './read_study'
 import type { Study } from './study'
 
-/** What this browser keeps; `unreadable` where there is something, but no study that this page can show. */
+/** What this browser stores; `unreadable` if there is something, but no study that this page can show. */
 export interface Kept {
   readonly study?: Study
   readonly unreadable?: boolean
 }
 
-/** The study of a database as this browser keeps it, for all tabs; whose turn it is each tab knows by itself. */
+/** The study of a database as stored in this browser, shared by all tabs; each tab has its own current participant. */
 export class Shelf {
   readonly key: string
   private readonly turnKey: string
-  /** As it was last read or written here: who wrote something else was another tab. */
+  /** The text as last read or written here: any other text was written by another tab. */
   private text: string | null = null
 
   constructor(database: string) {
@@ -27,22 +27,22 @@ export class Shelf {
       this.text = localStorage.getItem(this.key)
       turn = sessionStorage.getItem(this.turnKey)
     } catch {
-      return {} // a page that may store nothing has nothing
+      return {} // if storage is forbidden, there is no study
     }
     return this.parsed(turn ?? undefined)
   }
 
-  /** What another tab changed, taken into what this one has. */
+  /** Merges another tab's change into this tab's study. */
   heard(mine: Study | undefined): Kept {
     const kept = this.read(),
       { study } = kept
     if (!study || !mine || !isSame(mine, study)) return kept.study ? { study: withTurn(kept.study, undefined) } : kept
     const both = withTurn(merged(mine, study), mine.current)
-    // Two wrote at once, and what the other wrote has not got all of it.
+    // Two tabs wrote at once, and the other's text does not contain everything.
     return { study: votesIn(both) > votesIn(study) ? this.write(both) : both }
   }
 
-  /** Keeps a study with what other tabs have put into it since, and gives that. Throws where nothing can be kept, or where there is another study by now. */
+  /** Merges a study with other tabs' changes, stores it and returns it. Throws if nothing can be stored, or if there is another study by now. */
   write(study: Study): Study {
     let now = study
     let stored: string | null
@@ -81,7 +81,7 @@ export class Shelf {
     }
   }
 
-  /** As it lies there, to be saved also where nobody can read it. */
+  /** Returns the stored text, so that it can be saved even if it is unreadable. */
   raw(): string {
     return this.text ?? ''
   }
@@ -98,5 +98,5 @@ export class Shelf {
   }
 }
 
-/** As a tab keeps it: somebody of the same code in another study is somebody else. */
+/** The tab's entry: a participant with the same code in another study is a different one. */
 const turnOf = ({ at }: Study, participant: string) => `${at} ${participant}`

@@ -48,7 +48,7 @@ const studyOf = (more: Partial<Settings> = {}): Study => {
 const counted = <T>(list: readonly T[]) => list.reduce((map, one) => map.set(one, (map.get(one) ?? 0) + 1), new Map<T, number>())
 
 describe('a random order', () => {
-  it('is the same for the same seed and another for another', () => {
+  it('is the same for the same seed and differs for another', () => {
     const first = (seed: number, who = '') =>
       Array.from(
         { length: 4 },
@@ -70,8 +70,8 @@ describe('a random order', () => {
   })
 })
 
-describe('what is shown', () => {
-  it('has the methods equally often, and no gap twice with one', () => {
+describe('the items', () => {
+  it('have each method equally often, and no gap twice with one method', () => {
     const items = itemsOf(sources, settings)
     expect(items).toHaveLength(23)
     const methods = counted(items.map(({ method }) => method))
@@ -80,12 +80,12 @@ describe('what is shown', () => {
     expect(counted(items.map(({ method, from }) => `${method} ${from}`)).size).toBe(23)
     expect(counted(items.slice(0, 12).map(({ from }) => from)).size).toBe(12)
   })
-  it('takes gaps again where there are too few, each as often', () => {
+  it('repeat gaps evenly if there are too few', () => {
     const items = itemsOf(sources.slice(0, 3), { ...settings, trials: 18, catches: 0 })
     expect([...counted(items.map(({ from }) => from)).values()]).toEqual([6, 6, 6])
     expect([...counted(items.map(({ method, from }) => `${method} ${from}`)).values()]).toEqual(Array(9).fill(2))
   })
-  it('follows from the seed alone', () => {
+  it('depend on the seed alone', () => {
     expect(itemsOf(sources, settings)).toEqual(itemsOf(sources, { ...settings }))
     expect(itemsOf(sources, settings)).not.toEqual(itemsOf(sources, { ...settings, seed: 8 }))
     expect(itemsOf([], settings)).toEqual([])
@@ -94,7 +94,7 @@ describe('what is shown', () => {
 
 describe('trials', () => {
   const items = itemsOf(sources, settings)
-  it('show everything once, with the sides as even as they can be, for each method and in all', () => {
+  it('show every item once, with balanced sides for each method and overall', () => {
     for (let seed = 0; seed < 50; ++seed) {
       const trials = trialsOf(items, { seed, order: 'own' }, 'P01')
       expect(trials.map(({ item }) => item).toSorted((a, b) => a - b)).toEqual(items.map((_, i) => i))
@@ -106,7 +106,7 @@ describe('trials', () => {
       expect(Math.abs(real.length - 2 * real.filter(({ side }) => side === 'left').length)).toBeLessThanOrEqual(1)
     }
   })
-  it("come in an order of each one's own, or in one for all", () => {
+  it('come in a separate order for each participant, or in one for all', () => {
     const own = { seed: 1, order: 'own' } as const,
       same = { seed: 1, order: 'same' } as const
     expect(trialsOf(items, own, 'P01')).toEqual(trialsOf(items, own, 'P01'))
@@ -117,7 +117,7 @@ describe('trials', () => {
     const trials = trialsOf(items, { seed: 4, order: 'own' }, 'x').filter(({ item }) => items[item].method)
     for (let i = 0; i + 3 <= 18; i += 3) expect(new Set(trials.slice(i, i + 3).map(({ item }) => items[item].method)).size).toBe(3)
   })
-  it('tell a side by nothing that can be guessed: over seeds each place is as often left', () => {
+  it('reveal no side by any pattern: over seeds each side is equally frequent', () => {
     let left = 0
     for (let seed = 0; seed < 400; ++seed) left += Number(trialsOf(items, { seed, order: 'own' }, '')[0].side === 'left')
     expect(left).toBeGreaterThan(160)
@@ -153,14 +153,14 @@ describe('gaps', () => {
       },
     ],
   }
-  it('go from the last stroke to the first of the next sign, where both have strokes', () => {
+  it('range from the last stroke to the first of the next sign, if both have strokes', () => {
     expect(gapsOf(document)).toEqual([{ from: 1700, to: 2300, signs: 'A B' }])
   })
-  it('are those between signs where no phases are annotated', () => {
+  it('are those between signs if no phases are annotated', () => {
     expect(gapsOf({ tiers: document.tiers.slice(0, 1) })).toEqual([{ from: 3000, to: 4000, signs: 'B C' }])
     expect(gapsOf({ tiers: [] })).toEqual([])
   })
-  it('need capture on both sides, a length that is seen, and nothing broken near', () => {
+  it('need capture on both sides, a perceptible length, and no defect nearby', () => {
     const captured = { begin: 0, end: 6000 }
     const gap = (from: number, to: number) => ({ from, to, signs: '' })
     const all = [gap(100, 500), gap(1700, 2300), gap(3000, 3050), gap(3000, 3001 + kLongest), gap(5000, 5800), gap(4000, 4400)]
@@ -173,12 +173,12 @@ describe('gaps', () => {
 
 describe('a study', () => {
   const answer = (more: object = {}) => ({ recorded: 'left' as const, comment: '', plays: 2, ms: 3000, at: '2026-01-01T10:00:00.000Z', ...more })
-  it('asks what it is set up to ask', () => {
+  it('asks the questions that were set up', () => {
     expect(stepsOf(settings)).toEqual(['recorded', 'rating', 'comment'])
     expect(stepsOf({ ...settings, mode: 'single', natural: true })).toEqual(['recorded', 'rating', 'comment'])
     expect(['recorded', 'rating', 'comment'].map((step) => isAnswered(step as 'recorded', { recorded: 'left' }))).toEqual([true, false, true])
   })
-  it('lets people follow each other, and each go on where they left', () => {
+  it('lets participants take turns, and each continue where they stopped', () => {
     let study = begin(studyOf(), 'P01', 'deaf')
     study = vote(study, answer())
     study = keepDraft(study, { recorded: 'right', plays: 1 })
@@ -226,17 +226,17 @@ describe('a study', () => {
     expect(csvOf(rows).split('\r\n')[1]).toContain('"P""1"""')
     expect(csvOf(rows)).toContain('"a, b"')
   })
-  it('names the program that made what was voted on, or in older votes that of the set-up', () => {
+  it('names the program version of each vote, or in older votes that of the setup', () => {
     const study = vote(vote(begin(studyOf(), 'P01', 'deaf'), answer({ version: 'signweave 0.3.0' })), answer())
     const rows = voteRows(study),
       at = kColumns.indexOf('software_version')
     expect(rows.slice(1).map((row) => row[at])).toEqual(['signweave 0.3.0', 'signweave 0.1.0'])
   })
-  it('marks what was answered after somebody had looked', () => {
+  it('marks votes given after the results were opened', () => {
     const study = vote({ ...begin(studyOf(), 'P01', 'deaf'), unblinded: '2026-01-01T11:00:00Z' }, answer())
     expect(sessionOf(study)?.answers[0].unblinded).toBe(true)
   })
-  it('sums up by method, of everybody or of those who sign', () => {
+  it('summarizes by method, for everyone or one fluency', () => {
     let study = begin(studyOf({ rating: true }), 'P01', 'deaf')
     while (!isOver(study)) {
       const session = sessionOf(study)!,
@@ -251,7 +251,7 @@ describe('a study', () => {
     expect(outcomes(study, 'learner')).toEqual([])
     expect(outcomes(study, 'deaf')).toEqual(all)
   })
-  it('tells of one alone apart what was captured and what was made', () => {
+  it('distinguishes captured and generated motion when shown alone', () => {
     let study = begin(studyOf({ mode: 'single', catches: 4 }), 'P01', 'deaf')
     expect(study.items).toHaveLength(20)
     while (!isOver(study)) study = vote(study, answer({ recorded: 'left', rating: 3 }))
@@ -264,7 +264,7 @@ describe('a study', () => {
     ])
     expect(votesOf(study)).toHaveLength(20)
   })
-  it('has labels of its own, the known ones where none was written', () => {
+  it('has custom labels, and the defaults otherwise', () => {
     const labels = labelsOf('single', { recorded: { en: ' Who? ' }, rating: { en: '', fr: 'Note' } })
     expect(labels.recorded).toEqual({ en: 'Who?', fr: defaultsOf('single').recorded.fr })
     expect(labels.rating).toEqual({ en: defaultsOf('single').rating.en, fr: 'Note' })
@@ -272,7 +272,7 @@ describe('a study', () => {
 })
 
 describe("Wilson's interval", () => {
-  it('is as tables have it', () => {
+  it('matches published tables', () => {
     const { low, high, value } = wilson(8, 10)!
     expect([value, low, high].map((x) => x.toFixed(4))).toEqual(['0.8000', '0.4902', '0.9433'])
     expect(wilson(0, 20)!.low).toBe(0)

@@ -3,7 +3,7 @@ import { Random } from './random'
 
 export const kFluencies = ['deaf', 'hearing', 'learner', 'none'] as const
 export type Fluency = (typeof kFluencies)[number]
-/** What is written on the screens of a study, so that each has its own questions. */
+/** The texts on the screens of a study, so that each study can have its own questions. */
 export const kLabels = [
   'intro',
   'recorded',
@@ -24,42 +24,42 @@ export type Labels = Readonly<Record<Label, { readonly en: string; readonly fr: 
 
 export interface Settings {
   readonly seed: number
-  /** Two at a time, or one. */
+  /** Two motions at a time, or one. */
   readonly mode: 'pair' | 'single'
   readonly methods: readonly string[]
   readonly trials: number
-  /** How many more show the capture twice; of `pair`. */
+  /** The number of additional trials that show the capture twice; for `pair` only. */
   readonly catches: number
   /** Ms on both sides of a gap. */
   readonly around: number
-  /** Whether everybody sees the trials in one order, or each in an order of their own. */
+  /** Whether all participants see the trials in one order, or each in a separate order. */
   readonly order: 'own' | 'same'
-  /** What is asked. */
+  /** The questions asked. */
   readonly recorded: boolean
   readonly natural: boolean
   readonly rating: boolean
   readonly comment: boolean
-  /** What the viewer may do beside looking. */
+  /** The controls that the viewer may use. */
   readonly speed: boolean
   readonly turn: boolean
-  /** Who signs; none is the drawn body. */
+  /** The character; null for the plain body. */
   readonly character: string | null
   readonly labels: Labels
 }
-/** A stretch of a recording and what is made anew in it. Ms of annotation time. */
+/** A span of a recording and the gap regenerated in it. Ms of annotation time. */
 export interface Item extends Gap {
   readonly recording: string
   readonly begin: number
   readonly end: number
-  /** None in a catch trial. */ readonly method: string
+  /** Empty in a catch trial. */ readonly method: string
 }
 export type Source = Omit<Item, 'method'>
-/** `side` is the capture's: of one alone `left` where it is the capture that is shown. */
+/** `side` is that of the capture; with one motion alone, `left` means that the capture is shown. */
 export interface Trial {
   readonly item: number
   readonly side: 'left' | 'right'
 }
-/** `left` is A, `right` is B; of one alone `left` is what was recorded. */
+/** `left` is A, `right` is B; for one motion alone, `left` means "recorded". */
 export type Choice = 'left' | 'right'
 export interface Answer {
   readonly recorded?: Choice
@@ -68,13 +68,13 @@ export interface Answer {
   readonly comment: string
   readonly plays: number
   readonly ms: number
-  /** When, as ISO 8601. */ readonly at: string
-  /** Of the program that made what was voted on; older studies know only that of the day when they were set up. */
+  /** The time, as ISO 8601. */ readonly at: string
+  /** The version of the program that generated the motion; older studies only have the version at their setup. */
   readonly version?: string
-  /** Whether somebody had looked at the results before. */
+  /** Whether the results had been opened before. */
   readonly unblinded: boolean
 }
-/** Somebody who takes part. */
+/** One participant. */
 export interface Session {
   readonly participant: string
   readonly fluency: Fluency
@@ -82,27 +82,27 @@ export interface Session {
   readonly answers: readonly Answer[]
   readonly draft?: Draft
 }
-/** An answer that is not given yet, so that a reload loses nothing. */
+/** An incomplete answer, stored so that a reload loses nothing. */
 export type Draft = Partial<Pick<Answer, 'recorded' | 'natural' | 'rating' | 'comment' | 'plays' | 'ms'>>
 export interface Study {
   readonly format: typeof kFormat
   readonly database: string
-  /** Of the program that makes the motion. */ readonly version: string
-  /** When it was set up. */ readonly at: string
+  /** The version of the program that generates the motion. */ readonly version: string
+  /** The time of the setup. */ readonly at: string
   readonly settings: Settings
   readonly items: readonly Item[]
   readonly sessions: readonly Session[]
-  /** Whose turn it is. */
+  /** The current participant. */
   readonly current?: string
   readonly unblinded?: string
-  /** What the recordings were like that it shows, by their names: `strangersOf` knows them again. */
+  /** Fingerprints of the recordings by name, from which `strangersOf` recognises them. */
   readonly recordings?: Readonly<Record<string, string>>
   /** Recordings whose annotation could not be read. */
   readonly leftOut?: readonly string[]
 }
 export const kFormat = 'signweave study 1'
 
-/** What is shown, the same for everybody: methods in turn, places at random, none twice with a method before all have been. */
+/** Returns the items, the same for all participants: methods in turn, gaps at random, none repeated with a method before all have been used. */
 export function itemsOf(
   sources: readonly Source[],
   { seed, mode, methods, trials, catches }: Pick<Settings, 'seed' | 'mode' | 'methods' | 'trials' | 'catches'>,
@@ -128,14 +128,14 @@ export function itemsOf(
   return items
 }
 
-/** The order and the sides for one who takes part: every method as often on the left as on the right, as far as it goes. */
+/** Returns the order and the sides for one participant: every method appears equally often on both sides, as far as possible. */
 export function trialsOf(items: readonly Item[], { seed, order }: Pick<Settings, 'seed' | 'order'>, participant: string): readonly Trial[] {
   const random = new Random(seed, 'order', order === 'own' ? participant : '')
   let odd = random.below(2)
   const queues = new Map<string, Trial[]>()
   for (const method of new Set(items.map(({ method }) => method))) {
     const mine = items.flatMap((item, i) => (item.method === method ? [i] : []))
-    // Of an odd number one side has one more: the left and the right in turn over the methods.
+    // With an odd number one side has one more: left and right alternate over the methods.
     const left = Math.floor(mine.length / 2) + (mine.length % 2 ? (odd ^= 1) : 0)
     const sides = random.shuffled(mine.map((_, i): Choice => (i < left ? 'left' : 'right')))
     queues.set(
@@ -145,7 +145,7 @@ export function trialsOf(items: readonly Item[], { seed, order }: Pick<Settings,
   }
   const catches = queues.get('') ?? []
   queues.delete('')
-  // Blocks in which each method comes once, so that nobody is fresh for one and tired for another.
+  // Blocks that contain each method once, so that fatigue affects all methods alike.
   const trials: Trial[] = []
   while ([...queues.values()].some((queue) => queue.length > 0)) {
     trials.push(...random.shuffled([...queues.values()].filter((queue) => queue.length > 0)).map((queue) => queue.shift()!))
@@ -165,7 +165,7 @@ export function stepsOf({ mode, recorded, natural, rating, comment }: Settings):
   ]
   return asked.flatMap(([step, is]) => (is ? [step] : []))
 }
-/** Whether a question has its answer; a comment needs none. */
+/** Whether a question is answered; a comment is optional. */
 export function isAnswered(step: Step, draft: Draft): boolean {
   return step === 'comment' || draft[step] !== undefined
 }
@@ -176,7 +176,7 @@ const withSession = (study: Study, session: Session): Study => ({
   sessions: study.sessions.map((one) => (one.participant === session.participant ? session : one)),
 })
 
-/** Somebody begins, or goes on where they left. */
+/** Starts a participant's session, or continues it. */
 export function begin(study: Study, participant: string, fluency: Fluency): Study {
   const known = study.sessions.some((one) => one.participant === participant)
   const sessions = known

@@ -34,12 +34,12 @@ export interface Vote {
   readonly session: Session
   readonly trial: number
   readonly question: 'recorded' | 'natural' | 'rating'
-  /** That of the trial; none of a catch trial. */
+  /** The method of the trial; empty for a catch trial. */
   readonly method: string
-  /** What was to be judged: the method, or where one motion is shown alone and it is the capture, `captured`. */
+  /** The motion that was judged: the method, or `captured` if the capture was shown alone. */
   readonly judged: string
   readonly choice?: Choice
-  /** Whether the capture was chosen; none in catch trials and of ratings alone. */ readonly correct?: boolean
+  /** Whether the capture was identified; undefined for catch trials and for ratings of a single motion. */ readonly correct?: boolean
   readonly rating?: number
   readonly ms: number
 }
@@ -54,7 +54,7 @@ export function votesOf(study: Study): readonly Vote[] {
       return (questions.length > 0 ? questions : ['rating' as const]).map((question): Vote => {
         const choice = question === 'rating' ? undefined : answer[question]
         const judged = study.settings.mode === 'single' && side === 'left' ? 'captured' : method
-        // Of two the capture was chosen; of one it was told what it is, since left says there that it was recorded.
+        // With two motions: the capture was chosen; with one: it was identified correctly, where left means "recorded".
         return {
           session,
           trial,
@@ -76,7 +76,7 @@ const answerName = (study: Study, choice: Choice | undefined): string =>
 const sideName = (study: Study, side: Choice, method: string): string =>
   !method ? 'both' : study.settings.mode === 'single' ? (side === 'left' ? 'only' : 'none') : side === 'left' ? 'A' : 'B'
 
-/** For `csvOf`: one row a vote. */
+/** Returns the rows for `csvOf`: one per vote. */
 export function voteRows(study: Study): readonly (readonly Cell[])[] {
   return [
     kColumns,
@@ -115,7 +115,7 @@ export function voteRows(study: Study): readonly (readonly Cell[])[] {
   ]
 }
 
-/** A part of a whole with the interval that holds it in 95 of 100 studies (Wilson 1927); none of nothing. */
+/** A proportion with its 95 % confidence interval (Wilson 1927); undefined for an empty sample. */
 export interface Share {
   readonly right: number
   readonly of: number
@@ -133,9 +133,9 @@ export function wilson(right: number, of: number, z = 1.959963984540054): Share 
   return { right, of, value: p, low: right === 0 ? 0 : (middle - half) / whole, high: right === of ? 1 : (middle + half) / whole }
 }
 
-/** What came out for one method and question. */
+/** The result for one method and question. */
 export interface Outcome {
-  /** Or `captured`, where one is shown alone; none of catch trials. */ readonly method: string
+  /** Or `captured`, if one motion is shown alone; empty for catch trials. */ readonly method: string
   readonly question: Vote['question']
   readonly share?: Share
   readonly rating?: number
@@ -143,7 +143,9 @@ export interface Outcome {
   readonly votes: number
 }
 
-/** For each question and method, of everybody or of those of one fluency. Catch trials have no method: their share is of A. */
+/**
+ * Returns the results for each question and method, of all participants or of those of one fluency. Catch trials have no method: their proportion is that of A.
+ */
 export function outcomes(study: Study, fluency?: Fluency): readonly Outcome[] {
   const by = new Map<string, Vote[]>()
   for (const one of votesOf(study)) {
@@ -157,13 +159,13 @@ export function outcomes(study: Study, fluency?: Fluency): readonly Outcome[] {
     .map((votes): Outcome => {
       const [{ judged: method, question }] = votes
       const ratings = votes.flatMap(({ rating }) => (rating === undefined ? [] : [rating]))
-      const told = votes.filter(({ choice }) => choice !== undefined)
+      const answered = votes.filter(({ choice }) => choice !== undefined)
       return {
         method,
         question,
         votes: votes.length,
         medianMs: median(votes.map(({ ms }) => ms)),
-        share: wilson(told.filter(({ correct, choice }) => (method ? correct : choice === 'left')).length, told.length),
+        share: wilson(answered.filter(({ correct, choice }) => (method ? correct : choice === 'left')).length, answered.length),
         rating: ratings.length > 0 ? ratings.reduce((a, b) => a + b, 0) / ratings.length : undefined,
       }
     })

@@ -1,4 +1,4 @@
-// The page that character.mjs drives: the studio's own stage, pane and character, with a motion of a few still frames.
+// The page driven by character.mjs: the studio's own stage, pane and character, with a motion of a few still frames.
 import type { Mesh } from 'three'
 import { blockOf } from '../../../src/motion/encode'
 import { FrameStore } from '../../../src/motion/frame_store'
@@ -21,7 +21,7 @@ interface Gltf {
   asset: { extras: { signweave: { height: number } } }
 }
 
-/** Which joint plays which part, as the rig map will say it of the character. */
+/** Maps parts to joints, like the rig map of the character. */
 const kParts: Record<string, string> = {
   pelvis: 'spine05',
   neck: 'neck01',
@@ -50,7 +50,7 @@ function jsonOf(glb: ArrayBuffer): Gltf {
   return JSON.parse(new TextDecoder().decode(new Uint8Array(glb, 20, length))) as Gltf
 }
 
-/** The joints of a character, with its weights as tracks. */
+/** Returns the joints of a character, with its weights as tracks. */
 function skeletonOf({ nodes, skins, meshes }: Gltf): Skeleton {
   const joints = skins[0].joints
   const parentOf = (joint: number) => joints.findIndex((j) => nodes[j].children?.includes(joint))
@@ -92,14 +92,14 @@ async function wear(url: string): Promise<{ ms: number; tracks: number }> {
   return { ms: Math.round(performance.now() - start), tracks: skeleton.tracks.length }
 }
 
-/** Takes the signer off the stage; what the graphics card holds then. */
+/** Removes the signer from the stage; returns what the graphics card still holds. */
 function clear() {
   for (const pane of stage.panes.splice(0)) pane.dispose()
   stage.touch()
   return { ...stage.held }
 }
 
-/** Of each mesh its name, its place in the order of drawing, and the names of weights that are not 0. */
+/** Returns each mesh's name, its position in the drawing order, and the names of weights that are not 0. */
 function meshes() {
   const found: { name: string; order: number; moved: string[] }[] = []
   stage.panes[0]?.body.object.traverse((one) => {

@@ -1,6 +1,6 @@
 #pragma once
 
-/// A class of which nobody says why it has so many.
+/// A class without a reason for its number of members.
 class Many {
  public:
   int function(int a);

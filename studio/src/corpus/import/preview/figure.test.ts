@@ -23,7 +23,7 @@ const kRig = {
   right_hand: { joint: 5 },
 }
 
-it('has a line a bone, and none to what stands above the pelvis', () => {
+it('has one line per bone, and none to joints above the pelvis', () => {
   const { lines, shown, head } = new Figure(kSkeleton, kRig)
   expect(lines.map(({ from, to, side, thin }) => [from, to, side, thin])).toEqual([
     [1, 2, 'middle', false],
@@ -36,18 +36,18 @@ it('has a line a bone, and none to what stands above the pelvis', () => {
   expect(head).toEqual({ from: 2, to: 6 })
 })
 
-it('is of one piece where nothing is known of it', () => {
+it('is drawn uniformly if the rig is unknown', () => {
   const { lines, shown, head } = new Figure(kSkeleton, {})
   expect(lines.length).toBe(5)
   expect(shown.length).toBe(6)
   expect(head).toBeUndefined()
 })
 
-it('goes by what the names say is left, where the rig follows the body', () => {
+it('uses the sides in the names if the rig follows the body', () => {
   expect(new Figure(kSkeleton, kRig, true).sides.slice(3)).toEqual(['right', 'right', 'left', 'middle'])
 })
 
-it('turns tips with their joints', () => {
+it('rotates tips with their joints', () => {
   const figure = new Figure(kSkeleton, kRig),
     pose = restPose(kSkeleton)
   pose.rotations.set([0, 0, Math.SQRT1_2, Math.SQRT1_2], 4 * 2)

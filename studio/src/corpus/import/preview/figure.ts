@@ -2,31 +2,31 @@ import type { Pose } from '../../../motion/pose'
 import { Kinematics } from '../../../motion/kinematics'
 import { chainTo, type Rig, type Skeleton } from '../../../motion/skeleton'
 
-/** Which side of the signer something is of, as the file names it. */
+/** The side of the signer to which something belongs, by its name in the file. */
 export type Side = 'left' | 'right' | 'middle'
 /** A line of the figure, between two of its points. */
 export interface Line {
   readonly from: number
   readonly to: number
   readonly side: Side
-  /** Of a hand: drawn thinner. */
+  /** Part of a hand: drawn thinner. */
   readonly thin: boolean
 }
 
-/** A skeleton as lines between points: its joints, and behind them the tips that the rig knows. */
+/** A skeleton as lines between points: its joints, followed by the tips from the rig. */
 export class Figure {
   /** [3 · point], metres, model space. */
   readonly points: Float32Array
   readonly lines: readonly Line[]
-  /** Points that are a part of the body: not what stands above the pelvis, such as a reference at the origin. */
+  /** The points of the body: without those above the pelvis, such as a reference joint at the origin. */
   readonly shown: readonly number[]
   readonly sides: readonly Side[]
-  /** The points between which the head is, where the rig knows both. */
+  /** The points between which the head is, if the rig has both. */
   readonly head?: { readonly from: number; readonly to: number }
   private readonly kinematics: Kinematics
   private readonly tips: readonly { readonly joint: number; readonly offset: readonly [number, number, number] }[]
 
-  /** `swapped`: the rig follows a body whose names say left where it has right. */
+  /** `swapped`: the rig matches a body whose names say left for what is on the right. */
   constructor(
     readonly skeleton: Skeleton,
     readonly rig: Rig,
@@ -52,7 +52,7 @@ export class Figure {
     if (rig.head && to !== undefined) this.head = { from: rig.head.joint, to }
   }
 
-  /** Puts every point where it is in a pose. */
+  /** Moves every point to its position in a pose. */
   place(pose: Pose): void {
     const { kinematics, points, skeleton } = this
     kinematics.update(pose)
@@ -71,7 +71,7 @@ export class Figure {
   }
 }
 
-/** The side of each joint: that of the nearest part of a side on the way to the root. */
+/** Returns the side of each joint: that of the nearest ancestor that is a part with a side. */
 function sidesOf(skeleton: Skeleton, rig: Rig, swapped: boolean): Side[] {
   const named = new Map<number, Side>()
   for (const [part, place] of Object.entries(rig)) {
@@ -83,7 +83,7 @@ function sidesOf(skeleton: Skeleton, rig: Rig, swapped: boolean): Side[] {
   return sides
 }
 
-/** The wrists, and all that hangs on them. */
+/** Returns the wrists and all joints below them. */
 function handsOf(skeleton: Skeleton, rig: Rig): ReadonlySet<number> {
   const hands = new Set<number>()
   skeleton.joints.forEach(({ parent }, joint) => {

@@ -19,7 +19,7 @@ const kSkeleton: Skeleton = {
 }
 const kRig = { pelvis: { joint: 0 }, head: { joint: 1 }, left_upper_arm: { joint: 2 }, right_upper_arm: { joint: 3 } }
 
-/** Frames with the root turned so (x y z w). */
+/** Measures frames with these rotations of the root (x y z w). */
 function of(turns: readonly (readonly number[])[], swapped = false) {
   const poses = turns.map((turn) => {
     const pose = restPose(kSkeleton)
@@ -33,7 +33,7 @@ function of(turns: readonly (readonly number[])[], swapped = false) {
 const kUpright = [0, 0, 0, 1],
   kOnItsBack = [-Math.SQRT1_2, 0, 0, Math.SQRT1_2]
 
-it('tells how high a body is and that it stands', () => {
+it('measures the height of a body and that it is upright', () => {
   const { height, rise, least, most, across, sides, cloud } = of([kUpright, kUpright])
   expect(height).toBeCloseTo(1.7, 3)
   expect(rise).toBeCloseTo(1, 3)
@@ -43,23 +43,23 @@ it('tells how high a body is and that it stands', () => {
   expect(cloud.length).toBe(2 * 5 * 3)
 })
 
-it('tells that it lies, and is as high as mostly', () => {
+it('detects a lying body, and measures its median height', () => {
   const { height, rise } = of([kOnItsBack, kUpright, kOnItsBack])
   expect(height).toBeLessThan(0.01)
   expect(rise).toBeCloseTo(1 / 3, 3)
   expect(standOf(of([kOnItsBack]).rise!)).toBe('lying')
 })
 
-it('tells sides by name, and where the shoulders are by the body', () => {
+it('determines sides by name, and the shoulders by the body', () => {
   const { sides, across } = of([kUpright], true)
   expect(sides[0]).toBeCloseTo(-0.4, 3)
   expect(across?.[0]).toBeCloseTo(1, 3)
 })
 
-it('does not say where shoulders face that face everywhere', () => {
+it('gives no direction for shoulders that face everywhere', () => {
   expect(of([kUpright, [0, 1, 0, 0]]).across).toBeUndefined()
 })
 
-it('has words for how a body stands', () => {
+it('has texts for the postures', () => {
   expect([1, 0.8, 0.5, -0.2, -0.9].map(standOf)).toEqual(['upright', 'upright', 'lying', 'lying', 'upsideDown'])
 })

@@ -2,27 +2,27 @@ import type { FrameStore } from '../../../motion/frame_store'
 import { restPose } from '../../../motion/pose'
 import type { Figure } from './figure'
 
-/** What there is to know of a figure before it is drawn; metres, model space. */
+/** The measurements of a figure needed to draw it; metres, model space. */
 export interface Measures {
-  /** All points in all frames: x, y, z of the least and the most. */
+  /** The bounds of all points in all frames: x, y, z. */
   readonly least: readonly [number, number, number]
   readonly most: readonly [number, number, number]
-  /** Where points are in some of the frames: x, y, z each. */
+  /** Point positions in some of the frames: x, y, z each. */
   readonly cloud: Float32Array
-  /** From the lowest point to the highest, as it mostly is. */
+  /** The median distance from the lowest point to the highest. */
   readonly height: number
-  /** The vertical part of the way from pelvis to head: 1 upright, 0 lying, −1 upside down; none where the rig does not know both. */
+  /** The vertical component of the direction from pelvis to head: 1 upright, 0 lying, −1 upside down; undefined if the rig lacks one of them. */
   readonly rise?: number
-  /** Level, from the right shoulder to the left: x and z. Not there where nothing tells it. */
+  /** Horizontal direction from the right shoulder to the left: x and z. Undefined if it cannot be determined. */
   readonly across?: readonly [number, number]
-  /** Level, from what the file names right to what it names left: x and z. */
+  /** Horizontal vector from the parts named right to those named left: x and z. */
   readonly sides: readonly [number, number]
 }
 
-/** Frames of which the points are kept. */
+/** The maximum number of frames whose points are stored. */
 const kCloudFrames = 40
 
-/** Looks at every frame that is here. */
+/** Measures all frames that are loaded. */
 export function measured(figure: Figure, store: FrameStore): Measures {
   const { points, shown, rig, sides } = figure
   const pose = restPose(store.skeleton)
@@ -82,13 +82,13 @@ export function measured(figure: Figure, store: FrameStore): Measures {
 }
 
 const added = (a: readonly [number, number], b: readonly [number, number]): [number, number] => [a[0] + b[0], a[1] + b[1]]
-/** Of length 1, or none where it has none. */
+/** Returns the vector with length 1; a zero vector stays zero. */
 function unit(x: number, z: number): [number, number] {
   const length = Math.hypot(x, z)
   return length > 1e-9 ? [x / length, z / length] : [0, 0]
 }
 
-/** How a body stands. */
+/** The posture of a body. */
 export type Stand = 'upright' | 'lying' | 'upsideDown'
 export function standOf(rise: number): Stand {
   return rise > 0.7 ? 'upright' : rise < -0.7 ? 'upsideDown' : 'lying'

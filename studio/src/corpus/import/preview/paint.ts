@@ -8,21 +8,21 @@ export interface Colors {
   readonly floor: string
   readonly mark: string
 }
-/** The page's colours, as an element has them. */
+/** Returns the page's colours at an element. */
 export function colorsAt(element: Element): Colors {
   const style = getComputedStyle(element)
   const of = (name: string) => style.getPropertyValue(name).trim()
   return { left: of('--curve-left'), right: of('--curve-right'), middle: of('--ink'), floor: of('--line'), mark: of('--soft') }
 }
 
-/** The picture of a figure that was placed: floor, mark with its words, lines. */
+/** The picture of a posed figure: floor, labelled scale mark, lines. */
 export interface Picture {
   readonly figure: Figure
   readonly axes: Axes
   readonly fit: Fit
   readonly colors: Colors
-  /** What stands at the mark, such as “1 m”. */
-  readonly words: string
+  /** The label of the mark, such as “1 m”. */
+  readonly label: string
 }
 
 export function paint(context: CanvasRenderingContext2D, picture: Picture, width: number, height: number): void {
@@ -58,8 +58,8 @@ function paintFloor(context: CanvasRenderingContext2D, picture: Picture): void {
   context.stroke()
 }
 
-/** An upright of a known length, at the left edge. */
-function paintMark(context: CanvasRenderingContext2D, { axes, fit, colors, words }: Picture, height: number): void {
+/** Draws a vertical scale mark at the left edge. */
+function paintMark(context: CanvasRenderingContext2D, { axes, fit, colors, label }: Picture, height: number): void {
   const length = fit.scale * fit.mark * axes.y[1],
     x = 10,
     foot = height - 10
@@ -75,7 +75,7 @@ function paintMark(context: CanvasRenderingContext2D, { axes, fit, colors, words
   context.stroke()
   context.font = '12px system-ui, sans-serif'
   context.textBaseline = 'middle'
-  context.fillText(words, x + 8, foot - Math.min(length / 2, height / 2))
+  context.fillText(label, x + 8, foot - Math.min(length / 2, height / 2))
 }
 
 function paintFigure(context: CanvasRenderingContext2D, picture: Picture): void {

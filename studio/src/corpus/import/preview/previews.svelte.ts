@@ -3,7 +3,7 @@ import type { OpenedMotion } from '../../../motion/source'
 import { Figure } from './figure'
 import { measured, type Measures } from './measures'
 
-/** How a file is to be read: parameters of an import. */
+/** Options for reading a file: parameters of an import. */
 export type Reading = Readonly<Record<string, unknown>>
 /** A motion that can be drawn. */
 export interface Drawn {
@@ -13,14 +13,14 @@ export interface Drawn {
   /** Frames a second of the file. */
   readonly rate: number
 }
-/** A preview that has come, or why it did not. */
+/** A loaded preview, or the fault that prevented it. */
 export type Come = { readonly drawn: Drawn; readonly fault?: undefined } | { readonly fault: unknown; readonly drawn?: undefined }
 
 export const keyOf = (reading: Reading): string => JSON.stringify(Object.entries(reading).sort(([a], [b]) => (a < b ? -1 : 1)))
 
 /**
- * Previews of one file by how it is read, fetched one after the other: what is wanted no more is given up, what has come stays. A fault stays as long as
- * it is wanted.
+ * Previews of one file by reading options, fetched one after the other: those no longer wanted are cancelled, loaded ones are cached. A fault stays as long as
+ * its preview is wanted.
  */
 export class Previews {
   private come = $state.raw<ReadonlyMap<string, Come>>(new Map())
@@ -32,7 +32,7 @@ export class Previews {
   get(reading: Reading): Come | undefined {
     return this.come.get(keyOf(reading))
   }
-  /** What is wanted now, in the order in which it should come. */
+  /** Sets the previews that are wanted, in the order in which they are loaded. */
   want(readings: readonly Reading[]): void {
     this.wanted = readings
     const keys = new Set(readings.map(keyOf))
@@ -41,7 +41,7 @@ export class Previews {
     if (faults.length > 0) this.forget(faults.map(([key]) => key))
     this.next()
   }
-  /** Asks once more for what did not come. */
+  /** Requests a failed preview again. */
   retry(reading: Reading): void {
     this.forget([keyOf(reading)])
     this.next()

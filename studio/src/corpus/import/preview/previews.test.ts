@@ -11,7 +11,7 @@ function motion(): OpenedMotion {
   store.put(blockOf(kSkeleton, [restPose(kSkeleton)]))
   return { store, rig: {}, originMs: 0, declarations: {} }
 }
-/** Previews of which each is answered when the test says so. */
+/** Previews that are answered when the test says so. */
 function asked() {
   const calls: { reading: Reading; signal: AbortSignal; give: (motion: OpenedMotion) => void; fail: (fault: unknown) => void }[] = []
   const previews = new Previews((reading, signal) => new Promise((give, fail) => calls.push({ reading, signal, give, fail })))
@@ -20,7 +20,7 @@ function asked() {
 const kZ = { up: 'z' },
   kMetres = { unit: 'm' }
 
-it('asks for one after the other, each once', async () => {
+it('requests one after the other, each once', async () => {
   const { previews, calls, readings } = asked()
   previews.want([{}, kZ])
   previews.want([{}, kZ])
@@ -33,7 +33,7 @@ it('asks for one after the other, each once', async () => {
   expect(calls.length).toBe(2)
 })
 
-it('gives up what is wanted no more, and takes nothing of it', async () => {
+it('cancels previews that are no longer wanted, and ignores their results', async () => {
   const { previews, calls, readings } = asked()
   previews.want([kZ])
   previews.want([kMetres])
@@ -45,7 +45,7 @@ it('gives up what is wanted no more, and takes nothing of it', async () => {
   expect(previews.get(kZ)).toBeUndefined()
 })
 
-it('keeps a fault as long as it is wanted, and asks again when told', async () => {
+it('keeps a fault as long as its preview is wanted, and retries on request', async () => {
   const { previews, calls } = asked()
   previews.want([kZ])
   calls[0].fail(new Error('no'))
@@ -60,7 +60,7 @@ it('keeps a fault as long as it is wanted, and asks again when told', async () =
   expect(previews.get(kZ)).toBeUndefined()
 })
 
-it('knows a reading by what it says, in whatever order', () => {
+it('identifies a reading by its content, in any order', () => {
   expect(keyOf({ up: 'z', unit: 'm' })).toBe(keyOf({ unit: 'm', up: 'z' }))
   expect(keyOf({})).not.toBe(keyOf(kZ))
 })

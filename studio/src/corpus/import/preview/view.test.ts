@@ -2,7 +2,7 @@ import { expect, it } from 'vitest'
 import { along, axesOf, fitted, roundBelow } from './view'
 
 const rounded = (values: readonly number[]) => values.map((value) => Number(value.toFixed(4)) + 0)
-/** A body of a height, from a place above the floor. */
+/** A body of a given height, starting at `from` above the floor. */
 function body(height: number, from = 0) {
   const wide = height / 4
   return {
@@ -12,7 +12,7 @@ function body(height: number, from = 0) {
   }
 }
 
-it('looks at the front of a body: its left is on the right of the picture', () => {
+it("front view: the body's left is on the right of the picture", () => {
   for (const across of [undefined, [1, 0], [0, -1], [-0.6, 0.8]] as const) {
     const { x, y } = axesOf(across, 'front')
     const [ax, az] = across ?? [1, 0]
@@ -21,12 +21,12 @@ it('looks at the front of a body: its left is on the right of the picture', () =
   }
 })
 
-it('looks at its left side: what is in front of it is on the left of the picture', () => {
+it("side view: the body's front is on the left of the picture", () => {
   const { x } = axesOf([1, 0], 'side')
   expect(rounded(x)).toEqual([0, 0, -1])
 })
 
-it('looks down at an angle: what is nearer is lower', () => {
+it('angled view: closer points are lower', () => {
   const { y } = axesOf([1, 0], 'angle')
   expect(along(y, 0, 0, 1)).toBeLessThan(-0.1)
   expect(along(y, 0, 1, 0)).toBeGreaterThan(0.9)
@@ -48,7 +48,7 @@ it('fits a body of any size into the picture, with a mark of a round length', ()
   }
 })
 
-it('shows the floor below a body, and not where it is far away', () => {
+it('shows the floor below a body, unless it is far away', () => {
   const axes = axesOf([1, 0], 'front')
   const above = fitted(body(1.7, 1), axes, 300, 240, 16)
   expect(above.floor).toBeDefined()

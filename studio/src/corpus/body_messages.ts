@@ -1,11 +1,11 @@
-/// Words for parts of the body and for what is wrong with a motion, as reports of the server name them.
+/// Names of body parts and of motion defects, as the server's reports identify them.
 
 type Language = 'en' | 'fr'
-interface Words {
+interface Messages {
   readonly [name: string]: string
 }
 
-const kParts: Readonly<Record<Language, Words>> = {
+const kParts: Readonly<Record<Language, Messages>> = {
   en: {
     pelvis: 'pelvis',
     spine: 'spine',
@@ -67,7 +67,7 @@ const kParts: Readonly<Record<Language, Words>> = {
     right: 'droite',
   },
 }
-const kDefects: Readonly<Record<Language, Words>> = {
+const kDefects: Readonly<Record<Language, Messages>> = {
   en: {},
   fr: {
     'T-pose': 'pose en T',
@@ -84,7 +84,7 @@ const kSides = ['left_', 'right_'] as const
 const kSided = ['eye', 'clavicle', 'upper_arm', 'forearm', 'hand', 'thigh', 'shin', 'foot', 'toes']
 const kFingers = ['thumb', 'index', 'middle', 'ring', 'little']
 const kPoints = ['metacarpal', 'proximal', 'intermediate', 'distal', 'tip']
-/** The parts of a body but for fingers, as docs/rig.md names them. */
+/** The body parts except fingers, by their names in docs/rig.md. */
 export const kMainParts: readonly string[] = [
   'pelvis',
   'spine',
@@ -96,7 +96,7 @@ export const kMainParts: readonly string[] = [
   ...kSided.flatMap((part) => kSides.map((side) => side + part)),
 ]
 export const kFingerParts: readonly string[] = kSides.flatMap((side) => kFingers.flatMap((finger) => kPoints.map((point) => `${side}${finger}_${point}`)))
-/** Parts without which a body can hardly sign, or be drawn. */
+/** The parts without which a body can hardly sign or be drawn. */
 export const kNeeded: readonly string[] = [
   'pelvis',
   'chest',
@@ -105,15 +105,15 @@ export const kNeeded: readonly string[] = [
   ...['upper_arm', 'forearm', 'hand'].flatMap((part) => kSides.map((side) => side + part)),
 ]
 
-/** A part in plain words: "left wrist". */
-export function partWords(part: string, language: Language): string {
-  const words = kParts[language]
-  const side = part.startsWith('left_') ? words.left : part.startsWith('right_') ? words.right : ''
+/** Returns the readable name of a part, such as "left wrist". */
+export function partName(part: string, language: Language): string {
+  const parts = kParts[language]
+  const side = part.startsWith('left_') ? parts.left : part.startsWith('right_') ? parts.right : ''
   const rest = part.replace(/^(left|right)_/, '')
   const finger = kFingers.find((one) => rest.startsWith(`${one}_`))
-  const plain = finger ? `${words[finger]}, ${words[rest.slice(finger.length + 1)]}` : (words[rest] ?? rest)
+  const plain = finger ? `${parts[finger]}, ${parts[rest.slice(finger.length + 1)]}` : (parts[rest] ?? rest)
   if (!side) return plain
   return language === 'en' ? `${side} ${plain}` : `${plain} à ${side}`
 }
 
-export const defectWords = (kind: string, language: Language): string => kDefects[language][kind] ?? kind
+export const defectName = (kind: string, language: Language): string => kDefects[language][kind] ?? kind

@@ -1,7 +1,7 @@
 import { expect, it } from 'vitest'
 import type { ExplainedReport, Report } from '../api/answers'
 import { candidatesOf, chosenTokens } from './candidates'
-import { Known, laidOf } from './laid'
+import { Known, layoutOf } from './layout'
 import { documentOf } from './made_document'
 import { placesOf } from './utterance'
 
@@ -39,7 +39,7 @@ const junction = (clip: number, begin: number, end: number) => ({
   blend_frames: 3,
 })
 
-// A and B were recorded one after the other and stay so; then a piece with C and D in it, one with nothing, and E.
+// A and B were recorded one after the other and stay so; then a piece that contains C and D, an empty piece, and E.
 const kReport: Report = {
   frames: 1000,
   frames_per_second: 100,
@@ -55,8 +55,8 @@ const kReport: Report = {
 }
 const kPlaces = placesOf('A B s@4000..7000 s@100..200 E')
 
-it('finds each place, also where pieces hold several signs or none', () => {
-  const { places, seams } = laidOf(kPlaces, kReport)!
+it('finds each place, also if pieces contain several signs or none', () => {
+  const { places, seams } = layoutOf(kPlaces, kReport)!
   expect(places.map(({ begin, end, clip, signs }) => [begin, end, clip, signs.length])).toEqual([
     [0, 1, 0, 1],
     [1, 2, 0, 1],
@@ -74,8 +74,8 @@ it('finds each place, also where pieces hold several signs or none', () => {
   expect(seams[2]).toMatchObject({ method: 'gap', retraction: 1, preparation: 2, blend: 3 })
 })
 
-it('knows what was made of places that have moved since, but not their junctions', () => {
-  const known = new Known(kPlaces, laidOf(kPlaces, kReport)!)
+it('knows the positions of places that have moved since, but not their junctions', () => {
+  const known = new Known(kPlaces, layoutOf(kPlaces, kReport)!)
   const [a, b, c] = kPlaces.map(({ id }) => id)
   expect([known.place(c)?.begin, known.seam(b, a)?.kind, known.seam(c, b)?.kind, known.seam(c, a), known.place(-1)]).toEqual([
     2.5,
@@ -87,12 +87,12 @@ it('knows what was made of places that have moved since, but not their junctions
   expect([known.at(0), known.at(2.7), known.at(99)]).toEqual([a, c, undefined])
 })
 
-it('says nothing of places that are not those of the report', () => {
-  expect(laidOf(placesOf('A B'), kReport)).toBeUndefined()
-  expect(laidOf(placesOf('A B C D E F'), kReport)).toBeUndefined()
+it('returns nothing for places that do not match the report', () => {
+  expect(layoutOf(placesOf('A B'), kReport)).toBeUndefined()
+  expect(layoutOf(placesOf('A B C D E F'), kReport)).toBeUndefined()
 })
 
-it('draws what was made as its EAF has it', () => {
+it('builds the annotation of a result like its EAF', () => {
   const { tiers } = documentOf(kReport)
   expect(tiers.map(({ name, annotations }) => [name, annotations.length])).toEqual([
     ['Gloss', 5],
@@ -116,7 +116,7 @@ it('draws what was made as its EAF has it', () => {
   expect([other[1].annotations[1].label, other[3].annotations[1].label, other[4].annotations[0].label]).toEqual(['S', 's, images 100 à 320', 'gap en 450 ms'])
 })
 
-it('tells the candidates of a place by their tokens, the cheapest first, and what their costs are made of', () => {
+it('returns the candidates of a place by their tokens, cheapest first, with their cost terms', () => {
   const row = (token: number, cost: number, more = {}) => ({
     recording: 'r',
     token,

@@ -2,24 +2,24 @@ import { ApiError } from '../api/fault'
 import type { Place } from './project'
 import { wordOf } from './utterance'
 
-/** What becomes of words. */
+/** Callbacks for the fate of queued words. */
 export interface LiveHearer {
   /** It will be signed. */
   signed(place: Place): void
-  /** The server will not sign it; what comes after it goes on. */
+  /** The server refuses it; the following words continue. */
   refused(place: Place, fault: ApiError): void
-  /** There is nobody who could sign these. */
+  /** These are returned because no signer is available. */
   back(places: readonly Place[]): void
 }
 
-/** Words on their way to a signer: one after the other, so that they are signed in the order in which they were typed, and none is lost. */
-export class LiveWords {
-  /** Those that no answer has come to. */
+/** Typed words on their way to a signer: sent one after the other, so that they are signed in the order in which they were typed and none is lost. */
+export class LiveQueue {
+  /** The words not answered yet. */
   waiting = $state.raw<readonly Place[]>([])
   private under = false
   private closed = false
 
-  /** `append` waits until a signer is there; what it throws but for the server's refusals says that there is none. */
+  /** `append` waits until a signer is available; any error other than a refusal by the server means that there is no signer. */
   constructor(
     private readonly append: (utterance: string) => Promise<void>,
     private readonly hearer: LiveHearer,
@@ -29,7 +29,7 @@ export class LiveWords {
     this.waiting = [...this.waiting, ...places]
     void this.go()
   }
-  /** Ends it, and gives back what was not answered. */
+  /** Ends the queue and returns the words that were not answered. */
   close(): readonly Place[] {
     this.closed = true
     const left = this.waiting
@@ -57,9 +57,9 @@ export class LiveWords {
     }
     this.under = false
   }
-  private next(tell: (place: Place) => void): void {
+  private next(report: (place: Place) => void): void {
     const [one, ...rest] = this.waiting
     this.waiting = rest
-    tell(one)
+    report(one)
   }
 }

@@ -2,14 +2,14 @@ import { expect, it } from 'vitest'
 import type { Api } from '../api/client'
 import { ApiError, StudioFault } from '../api/fault'
 import { Live } from './live.svelte'
-import { LiveWords } from './live_words.svelte'
+import { LiveQueue } from './live_queue.svelte'
 import type { Place } from './project'
 import { placesOf, textOf, wordOf } from './utterance'
 
 const settled = () => new Promise((resolve) => setTimeout(resolve))
 function words(append: (word: string) => Promise<void>) {
   const heard: string[] = []
-  const one = new LiveWords(append, {
+  const one = new LiveQueue(append, {
     signed: (place: Place) => heard.push(`signed ${wordOf(place)}`),
     refused: (place: Place, fault: Error) => heard.push(`${wordOf(place)}: ${fault.message}`),
     back: (places: readonly Place[]) => heard.push(`back ${textOf(places)}`),
@@ -17,7 +17,7 @@ function words(append: (word: string) => Promise<void>) {
   return { one, heard, say: (text: string) => one.say(placesOf(text)) }
 }
 
-it('signs words in the order in which they were typed, and tells of every one that is refused', async () => {
+it('signs words in the order in which they were typed, and reports every refused one', async () => {
   const { one, heard, say } = words(async (word) => {
     await settled()
     if (word.startsWith('NO')) throw new ApiError('no sign', 0, 'not_found')
@@ -29,7 +29,7 @@ it('signs words in the order in which they were typed, and tells of every one th
   expect(heard).toEqual(['signed A', 'NOB: no sign', 'signed B', 'NOC: no sign', 'signed C'])
 })
 
-it('gives back what nobody could sign, and goes on when it is said again', async () => {
+it('returns words without an available signer, and continues when they are sent again', async () => {
   let there = true
   const { heard, say } = words(async (word) => {
     if (word === 'B') there = false
@@ -43,7 +43,7 @@ it('gives back what nobody could sign, and goes on when it is said again', async
   expect(heard).toEqual(['signed A', 'back B , C', 'signed C'])
 })
 
-it('gives what was not answered to whoever ends it, and tells nothing more', async () => {
+it('returns unanswered words when closed, and reports nothing more', async () => {
   let fail = (_: Error) => {}
   const { one, heard, say } = words(() => new Promise((_, reject) => (fail = reject)))
   say('A B')
@@ -53,7 +53,7 @@ it('gives what was not answered to whoever ends it, and tells nothing more', asy
   expect(heard).toEqual([])
 })
 
-it('holds words until the stream is there, or is known not to come', async () => {
+it('holds words until the stream is open, or has failed', async () => {
   const live = new Live({} as Api, 'd', 'r', {})
   let ended = ''
   const append = live.append('A').then(

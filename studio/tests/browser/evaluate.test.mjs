@@ -219,7 +219,7 @@ test('shows by collection which method may be the default', async () => {
   assert.equal(may, false)
   assert.deepEqual(await cells('tbody th'), ['hermite'])
   assert.deepEqual(await cells('tbody td'), [...collections.map(figure), figure(all), 'no: worse'])
-  const csv = rows((await saved(() => page.locator('.above', { hasText: 'over that of kriging' }).getByRole('button').click())).text)
+  const csv = rows((await saved(() => page.locator('.above', { hasText: 'relative to kriging' }).getByRole('button').click())).text)
   assert.deepEqual(csv[0].slice(0, 3), ['method', 'over', 'towns'])
   assert.equal(Number(csv[1][2]), collections[0].value)
   // It exists for the given duration only.

@@ -115,7 +115,7 @@ test('removes one file before the import, without sending or inspecting the othe
   await settled()
   await until(async () => assert.deepEqual(await shown(), ['first', 'second']))
   await row('first').click()
-  await until(async () => assert.match(await article(), /it can be searched, but not signed/))
+  await until(async () => assert.match(await article(), /it can be searched, not signed/))
   await page.getByRole('button', { name: /^Import 2$/ }).click()
   await page.getByText('Stored: 2').waitFor()
   assert.deepEqual(back.toSorted(), ['first.bvh', 'second.eaf', 'third.bvh', 'third.eaf'])

@@ -81,7 +81,7 @@ inline void measure_growth(const std::vector<AnnotationDocument>& sources, const
   }
   using How = Importing::How;
   for (const auto& [how, name] :
-       {std::pair(How::open, "open"), std::pair(How::reopened, "anew"), std::pair(How::verb, "verb")}) {
+       {std::pair(How::open, "open"), std::pair(How::reopened, "reopened"), std::pair(How::verb, "verb")}) {
     const std::filesystem::path target = folder / fmt::format("growth_{}", name);
     Importing large(target, files);
     // As many batches end after the thousandth recording as before it.

@@ -188,11 +188,11 @@ void measure_modes(const std::string& engine, const Corpus& corpus, const Option
     }
     if (mode.kind != AccessMode::Kind::by_frame) continue;
     const Question& frames = questions.back();
-    measure_order(name + "/frame/random_beside_in_order", corpus, frames, options,
+    measure_order(name + "/frame/random_against_in_order", corpus, frames, options,
                   [&](const Ask& ask) { bench::keep(stored->read({}, ask)); });
-    measure_order(name + "/frame_again/random_beside_in_order", corpus, frames, options,
+    measure_order(name + "/frame_again/random_against_in_order", corpus, frames, options,
                   [&](const Ask& ask) { bench::keep(stored->read_again(ask)); });
-    measure_order(name + "/frame_again/memcpy_random_beside_in_order", corpus, frames, options,
+    measure_order(name + "/frame_again/memcpy_random_against_in_order", corpus, frames, options,
                   [&](const Ask& ask) { copy(frames, ask); });
   }
 }

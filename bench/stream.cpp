@@ -247,8 +247,8 @@ void paced_streams(const Server& server, Utterances& utterances, const std::file
     print_missed(name + "/bare_loop/missed_of_due", bare);
     print_lateness(name + "/bare_loop", bare);
     const double of_client = ours.again.client_cpu_seconds / ours.again.seconds;
-    const double beside_bare = bare.client_cpu_seconds / bare.seconds;
-    print(name + "/cores_of_the_client", of_client, "cores", beside_bare, of_client / beside_bare, "-");
+    const double against_bare = bare.client_cpu_seconds / bare.seconds;
+    print(name + "/cores_of_the_client", of_client, "cores", against_bare, of_client / against_bare, "-");
   }
 }
 
@@ -344,8 +344,8 @@ void stalled_clients(const Server& server, Utterances& utterances, const Size& s
   print("stream/stalled_client_against_the_aim", grown, "MiB", 1, grown, "<= 1");
   print("stream/stalled_client/both_ends_in_the_system", each(tcp_memory() - tcp_before), "MiB", 1,
         each(tcp_memory() - tcp_before), "-");
-  print_missed("stream/beside_stalled_clients/missed_of_due", with_stalled);
-  print_lateness("stream/beside_stalled_clients", with_stalled);
+  print_missed("stream/with_stalled_clients/missed_of_due", with_stalled);
+  print_lateness("stream/with_stalled_clients", with_stalled);
 }
 
 std::filesystem::path database_in(const std::filesystem::path& folder, double minutes) {

@@ -31,7 +31,7 @@ class Animator {
   void look_ahead(std::int64_t frame, MutablePoseView pose) {
     arms_.look_ahead(frame, stand(body_[static_cast<std::size_t>(frame)], pose));
   }
-  void give_way_smoothly() { arms_.give_way_smoothly(); }
+  void yield_smoothly() { arms_.yield_smoothly(); }
 
   void fill(std::int64_t frame, MutablePoseView pose) {
     const BodyFrame& body = body_[static_cast<std::size_t>(frame)];
@@ -139,7 +139,7 @@ Motion animate(const Signer& signer, const Timeline& timeline, const HandPlan& p
   Animator animator(signer, timeline, plan, random);
   Motion motion(signer.skeleton, timeline.rate, timeline.frames);
   for (std::int64_t frame = 0; frame < timeline.frames; ++frame) animator.look_ahead(frame, motion.pose(frame));
-  animator.give_way_smoothly();
+  animator.yield_smoothly();
   for (std::int64_t frame = 0; frame < timeline.frames; ++frame) animator.fill(frame, motion.pose(frame));
   keep_hemisphere(motion);
   FaceMotion face = animator.take_face();

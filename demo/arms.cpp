@@ -89,13 +89,13 @@ void Arms::look_ahead(std::int64_t frame, const Trunk& trunk) {
   const auto at = static_cast<double>(frame);
   Limbs limbs = {planned_limb(Side::left, at, trunk), planned_limb(Side::right, at, trunk)};
   const Vector3f before[] = {limbs[0].wrist, limbs[1].wrist};
-  give_way(limbs, trunk);
-  for (std::size_t side = 0; side < 2; ++side) given_way_[side].push_back(limbs[side].wrist - before[side]);
+  yield(limbs, trunk);
+  for (std::size_t side = 0; side < 2; ++side) yielded_[side].push_back(limbs[side].wrist - before[side]);
 }
 
-void Arms::give_way_smoothly() {
+void Arms::yield_smoothly() {
   const int half = std::max(1, static_cast<int>(0.04 * fps_));
-  for (std::vector<Vector3f>& away : given_way_) {
+  for (std::vector<Vector3f>& away : yielded_) {
     away = widened(away, 2 * half);  // otherwise smoothing would lower the peaks
     for (int round = 0; round < 3; ++round) away = smoothed(away, half);
   }
@@ -104,7 +104,7 @@ void Arms::give_way_smoothly() {
 void Arms::fill(std::int64_t frame, const Trunk& trunk, MutablePoseView pose) {
   for (const Side side : kSides) {
     Limb limb = planned_limb(side, static_cast<double>(frame), trunk);
-    const Vector3f& away = given_way_[static_cast<std::size_t>(side)][static_cast<std::size_t>(frame)];
+    const Vector3f& away = yielded_[static_cast<std::size_t>(side)][static_cast<std::size_t>(frame)];
     if (away != Vector3f::Zero()) {
       limb.wrist += away;
       pose_limb(limb, side, trunk);
@@ -292,7 +292,7 @@ Arms::Limb Arms::planned_limb(Side side, double frame, const Trunk& trunk) {
 }
 
 /// Moves colliding hands apart, and out of head and trunk.
-void Arms::give_way(Limbs& limbs, const Trunk& trunk) const {
+void Arms::yield(Limbs& limbs, const Trunk& trunk) const {
   for (int round = 0; round < 5; ++round) {
     const float apart = too_close(limbs[0].points, limbs[1].points);
     if (apart <= 0) break;

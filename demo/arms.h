@@ -26,7 +26,7 @@ struct ArmIdleMotion {
 };
 
 /// Poses both arms and hands of one recording after the plan, with idle motion. Call `look_ahead` for every frame in
-/// order first, then `give_way_smoothly`, then `fill`.
+/// order first, then `yield_smoothly`, then `fill`.
 class Arms {
  public:
   /// Borrows signer and plan.
@@ -35,7 +35,7 @@ class Arms {
   /// Finds where the hands would collide with each other, the head or the trunk in the next frame.
   void look_ahead(std::int64_t frame, const Trunk& trunk);
   /// Smooths the avoidance over time, so that the hands react before a collision.
-  void give_way_smoothly();
+  void yield_smoothly();
   /// Writes the joints from the clavicles to the fingertips.
   void fill(std::int64_t frame, const Trunk& trunk, MutablePoseView pose);
 
@@ -75,7 +75,7 @@ class Arms {
   std::vector<Eigen::Vector3f> hand_points(const ArmPose& arm, const FingerRotations& fingers, Side side) const;
   void pose_limb(Limb& limb, Side side, const Trunk& trunk) const;
   Limb planned_limb(Side side, double frame, const Trunk& trunk);
-  void give_way(Limbs& limbs, const Trunk& trunk) const;
+  void yield(Limbs& limbs, const Trunk& trunk) const;
   void stay_outside(Limb& limb, Side side, const Trunk& trunk) const;
   void write_limb(const Limb& limb, Side side, MutablePoseView pose) const;
 
@@ -86,7 +86,7 @@ class Arms {
   ArmSizes sizes_{};
   Eigen::Vector3f shoulder_;                                             ///< left shoulder in the rest pose
   std::map<std::tuple<const SignShape*, Side, int>, WristAngles> held_;  ///< cache: each entry takes a search
-  std::array<std::vector<Eigen::Vector3f>, 2> given_way_;                ///< [side][frame], metres, as the left arm
+  std::array<std::vector<Eigen::Vector3f>, 2> yielded_;                  ///< [side][frame], metres, as the left arm
 };
 
 }  // namespace signweave::demo

@@ -54,7 +54,7 @@ class Posed {
     const ModelPose rest = to_model_space(*signer_.skeleton, motion_.pose(0));
     const Trunk trunk{.model = rest, .keep_out = bars};
     for (std::int64_t frame = 0; frame < timeline_.frames; ++frame) arms.look_ahead(frame, trunk);
-    arms.give_way_smoothly();
+    arms.yield_smoothly();
     for (std::int64_t frame = 0; frame < timeline_.frames; ++frame) arms.fill(frame, trunk, motion_.pose(frame));
   }
   const Timeline& timeline() const { return timeline_; }

@@ -17,7 +17,7 @@ using Angles = std::array<float, kFingerAngles>;
 
 // The thumb.
 constexpr Angles kThumbOut = {68, 6, 0, 0};
-constexpr Angles kBeside = {22, 14, 6, 8};
+constexpr Angles kAlongside = {22, 14, 6, 8};
 constexpr Angles kHalfOpen = {38, 27, 15, 18};
 constexpr Angles kAcross = {12, 42, 26, 34};  // over index and middle of a fist
 constexpr Angles kLocked = {4, 36, 34, 34};   // over ring and pinky
@@ -36,7 +36,7 @@ struct Row {
 // In the order of the enumerators.
 constexpr Row kShapes[kHandshapes] = {
     {"relaxed",    {kHalfOpen, Angles{22, 26, 14, 3}, Angles{28, 30, 16, 0}, Angles{33, 32, 17, -2}, Angles{36, 32, 18, -5}}},
-    {"flat",       {kBeside, kStraight, kStraight, kStraight, Angles{3, 3, 2, 2}}},
+    {"flat",       {kAlongside, kStraight, kStraight, kStraight, Angles{3, 3, 2, 2}}},
     {"spread",     {kThumbOut, Angles{2, 4, 3, 13}, Angles{2, 4, 3, 2}, Angles{2, 4, 3, -9}, Angles{3, 5, 3, -20}}},
     {"claw",       {Angles{52, 34, 24, 34}, Angles{18, 58, 34, 11}, Angles{20, 60, 36, 2}, Angles{20, 60, 36, -7}, Angles{18, 56, 34, -16}}},
     {"fist",       {kAcross, kClosed, kClosed, kClosed, kClosed}},
@@ -65,9 +65,9 @@ constexpr Row kShapes[kHandshapes] = {
     {"bill",       {Angles{29, 56, 8, 8}, Angles{62, 6, 4, 0}, Angles{62, 6, 4, 0}, Angles{62, 6, 4, 0}, Angles{62, 7, 4, 2}}},
     {"curve",      {Angles{40, 50, 8, 22}, Angles{36, 42, 24, 0}, Angles{38, 44, 24, 0}, Angles{40, 44, 24, 0}, Angles{42, 42, 24, 0}}},
     {"cup",        {Angles{18, 30, 10, 12}, Angles{36, 10, 6, 0}, Angles{38, 10, 6, 0}, Angles{40, 10, 6, 0}, Angles{42, 10, 6, 3}}},
-    {"bent",       {kBeside, Angles{72, 6, 4, 0}, Angles{72, 6, 4, 0}, Angles{72, 6, 4, 0}, Angles{72, 6, 4, 2}}},
+    {"bent",       {kAlongside, Angles{72, 6, 4, 0}, Angles{72, 6, 4, 0}, Angles{72, 6, 4, 0}, Angles{72, 6, 4, 2}}},
     {"fan",        {kThumbOut, Angles{48, 8, 5, 12}, Angles{50, 8, 5, 2}, Angles{50, 8, 5, -9}, Angles{48, 8, 5, -19}}},
-    {"folded",     {kBeside, Angles{6, 98, 64, 0}, Angles{6, 100, 66, 0}, Angles{6, 100, 66, 0}, Angles{6, 98, 64, 0}}},
+    {"folded",     {kAlongside, Angles{6, 98, 64, 0}, Angles{6, 100, 66, 0}, Angles{6, 100, 66, 0}, Angles{6, 98, 64, 0}}},
     {"tucked",     {kInPalm, kStraight, kStraight, kStraight, Angles{3, 3, 2, 2}}},
 };
 // clang-format on

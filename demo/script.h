@@ -35,7 +35,7 @@ Script villes();
 
 /// The whole corpus: meteo and villes, then as many further recordings of about two minutes as the requested minutes
 /// need (none if those two suffice). Their units are 4 to 9 signs long and come from a small grammar
-/// (corpus_scripts.cpp), the rarest words first, so that at 44 minutes nearly every word of the table occurs five times
+/// (script_corpus.cpp), the rarest words first, so that at 44 minutes nearly every word of the table occurs five times
 /// or more. The same minutes give the same scripts.
 std::vector<Script> corpus_scripts(double minutes);
 

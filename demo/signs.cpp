@@ -30,7 +30,7 @@ const SignShape& sign_for(std::string_view gloss) {
   for (const SignShape& sign : sign_table()) {
     if (sign.gloss == gloss) return sign;
   }
-  throw Error(ErrorCode::not_found, fmt::format("demo/sign_table.cpp: no sign '{}'; add a row to the table", gloss));
+  throw Error(ErrorCode::not_found, fmt::format("demo/signs_table.cpp: no sign '{}'; add a row to the table", gloss));
 }
 
 bool acts(const SignShape& sign, Side side) noexcept {

@@ -29,7 +29,8 @@ int main(int argc, char** argv) {
     Motion part;
     open.render({begin, open.score().frames}, part);
     const RecordingInfo source = *database.info(open.score().skeleton.recording);
-    bvh::write(argv[4], part, source.layout ? *source.layout : bvh::default_layout(part.skeleton()));
+    bvh::write(argv[4], part,
+               source.motion_facts.layout ? *source.motion_facts.layout : bvh::default_layout(part.skeleton()));
     std::cout << part.frame_count() << " of " << open.score().frames << " frames in " << argv[4] << '\n';
 
     // 3. Stream it: frame by frame in the bytes that a client reads, with events that name the clips of the score.

@@ -10,8 +10,8 @@
 
 #include "signweave/choose/concatenate.h"
 #include "signweave/core/error.h"
+#include "signweave/notation/score_json.h"
 #include "signweave/render/render.h"
-#include "signweave/score/score_json.h"
 #include "signweave/score/test_motion.h"
 
 using namespace signweave;

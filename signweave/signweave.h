@@ -14,7 +14,7 @@
 #include "signweave/formats/motion_file.h"      // BVH, glTF, FBX, ASF/AMC
 #include "signweave/formats/write_file.h"       // save a synthesis or a recording in any format that is written
 #include "signweave/live/player.h"              // sign an utterance while it grows
+#include "signweave/notation/score_json.h"      // a score as JSON
 #include "signweave/notation/utterance.h"       // "DEMAIN MATIN#2 PLUIE"
 #include "signweave/query/parse.h"              // the query language
 #include "signweave/retarget/retarget.h"        // a motion on another body
-#include "signweave/score/score_json.h"         // a score as JSON

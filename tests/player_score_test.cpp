@@ -5,7 +5,7 @@
 #include <random>
 
 #include "signweave/choose/open_score.h"
-#include "signweave/score/score_json.h"
+#include "signweave/notation/score_json.h"
 #include "tests/player_showing.h"
 
 namespace signweave {

@@ -7,9 +7,9 @@
 #include "signweave/choose/synthesizer.h"
 #include "signweave/core/error.h"
 #include "signweave/features/hand_points.h"
+#include "signweave/notation/score_json.h"
 #include "signweave/retarget/retargeted_source.h"
 #include "signweave/retarget/test_other_rig.h"
-#include "signweave/score/score_json.h"
 #include "tests/player_showing.h"
 #include "tests/retarget_figures.h"
 

@@ -21,7 +21,7 @@ using testing_database::recording_of;
 using testing_database::TestFolder;
 namespace fs = std::filesystem;
 
-constexpr const char* kEndings = ".bvh .glb .gltf .eaf .json .csv .rotations.csv .face.csv .svg";
+constexpr const char* kExtensions = ".bvh .glb .gltf .eaf .json .csv .rotations.csv .face.csv .svg";
 
 /// A motion with a scalar track.
 Motion smiling() {
@@ -52,16 +52,16 @@ TEST(WrittenFiles, OfEveryExtensionHaveAWriterOfTheirOwn) {
   Synthesis made;
   made.motion = motion;
   const TestFolder folder;
-  for (const std::string_view ending : writable_extensions()) {
-    const bool json = ending == ".json" || ending == ".gltf";
-    const std::string text = file_text(ending, content, "one");
-    EXPECT_EQ(is_json(text), json) << ending;
-    const std::string path = folder / ("one" + std::string(ending));
+  for (const std::string_view extension : writable_extensions()) {
+    const bool json = extension == ".json" || extension == ".gltf";
+    const std::string text = file_text(extension, content, "one");
+    EXPECT_EQ(is_json(text), json) << extension;
+    const std::string path = folder / ("one" + std::string(extension));
     write_file(path, content);
-    EXPECT_EQ(read_file(path), text) << ending;
-    EXPECT_EQ(is_json(file_text(ending, content_of(made), "x")), json) << ending;
+    EXPECT_EQ(read_file(path), text) << extension;
+    EXPECT_EQ(is_json(file_text(extension, content_of(made), "x")), json) << extension;
     save(made, {path});
-    EXPECT_EQ(is_json(read_file(path)), json) << ending;
+    EXPECT_EQ(is_json(read_file(path)), json) << extension;
   }
 }
 
@@ -71,19 +71,19 @@ TEST(WrittenFiles, OfNoOtherExtensionAreWritten) {
   Synthesis made;
   made.motion = motion;
   const TestFolder folder;
-  for (const std::string ending : {".fbx", ".amc", ".asf", ".anvil", ".mp4", ".frames", ".truth"}) {
-    const std::string wrong = "'" + ending + "' cannot be written here; use " + kEndings;
-    EXPECT_EQ(fault_from([&] { file_text(ending, content, "one"); }), "one: " + wrong);
-    EXPECT_THAT(fault_from([&] { file_text(ending, content_of(made), "x"); }), HasSubstr(wrong));
-    const std::string path = folder / ("one" + ending);
+  for (const std::string extension : {".fbx", ".amc", ".asf", ".anvil", ".mp4", ".frames", ".truth"}) {
+    const std::string wrong = "'" + extension + "' cannot be written here; use " + kExtensions;
+    EXPECT_EQ(fault_from([&] { file_text(extension, content, "one"); }), "one: " + wrong);
+    EXPECT_THAT(fault_from([&] { file_text(extension, content_of(made), "x"); }), HasSubstr(wrong));
+    const std::string path = folder / ("one" + extension);
     EXPECT_EQ(fault_from([&] { write_file(path, content); }), path + ": " + wrong);
     // Nothing else is written either.
     const std::string good = folder / "good.bvh";
     EXPECT_EQ(fault_from([&] { save(made, {good, path}); }), path + ": " + wrong);
-    EXPECT_FALSE(fs::exists(path) || fs::exists(good)) << ending;
+    EXPECT_FALSE(fs::exists(path) || fs::exists(good)) << extension;
   }
   const std::string path = folder / "one";
-  EXPECT_EQ(fault_from([&] { write_file(path, content); }), path + ": has no extension; use " + kEndings);
+  EXPECT_EQ(fault_from([&] { write_file(path, content); }), path + ": has no extension; use " + kExtensions);
   EXPECT_FALSE(fs::exists(path));
 }
 

@@ -78,13 +78,13 @@ std::vector<Borders> borders_in(const LabelledTrack& track, Between what) {
 }
 
 HandTask task_of(const Path& path, Borders at) {
-  const Eigen::Vector3f way = path.places[at.after] - path.places[at.before];
+  const Eigen::Vector3f displacement = path.places[at.after] - path.places[at.before];
   HandTask task{.known = true,
-                .distance = way.norm(),
+                .distance = displacement.norm(),
                 .speed_before = path.velocities[at.before].norm(),
                 .speed_after = path.velocities[at.after].norm()};
   if (task.distance > 1e-6f) {
-    task.approach = (path.velocities[at.before] + path.velocities[at.after]).dot(way) / task.distance;
+    task.approach = (path.velocities[at.before] + path.velocities[at.after]).dot(displacement) / task.distance;
   }
   return task;
 }

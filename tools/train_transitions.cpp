@@ -8,8 +8,8 @@
 #include <fstream>
 #include <iostream>
 
-#include "app/calls/evaluation_input.h"
 #include "app/cli/command.h"
+#include "signweave/calls/evaluation_input.h"
 #include "signweave/evaluation/spans.h"
 #include "signweave/evaluation/training.h"
 #include "signweave/transition/learned.h"

@@ -4,18 +4,22 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cctype>
 #include <functional>
 #include <string>
 #include <string_view>
 #include <type_traits>
 #include <vector>
 
-#include "app/calls/field.h"
+#include "app/cli/help_format.h"
 #include "app/cli/validators.h"
+#include "app/wire/read.h"
+#include "signweave/calls/field.h"
 
 namespace signweave::cli {
 
-/// Adds an option to the command line for each field of a call.
+/// Adds an option to the command line for each field of a call. A former name becomes an option that `--help` does not
+/// list; its description is the notice to print when it is used.
 class Binder {
  public:
   /// `before` is called with the name of each field before its option is added, so that options that the call does not
@@ -25,9 +29,31 @@ class Binder {
   template <class Member>
   void operator()(const calls::Field& field, Member& member) {
     if (before_) before_(field.name);
-    const std::string words = words_of(field);
+    add(words_of(field), field, member);
+    if (field.former.empty()) return;
+    const std::string current = words_of(field);
+    calls::Field former = field;
+    former.words = {};
+    former.name = field.former;
+    former.required = false;
+    former.help = wire::renamed(field).text;
+    add(words_of(former), former, member)->group(std::string(HelpFormat::kHidden))->excludes(verb_.get_option(current));
+  }
+
+  /// "--offset-ms"; for a positional argument its words.
+  static std::string words_of(const calls::Field& field) {
+    const bool positional = !field.words.empty() && std::isupper(static_cast<unsigned char>(field.words[0])) != 0;
+    if (positional) return std::string(field.words);
+    std::string words = fmt::format("--{}", field.words.empty() ? field.name : field.words);
+    std::replace(words.begin(), words.end(), '_', '-');
+    return words;
+  }
+
+ private:
+  template <class Member>
+  CLI::Option* add(const std::string& words, const calls::Field& field, Member& member) {
     if constexpr (std::is_same_v<Member, bool>) {
-      verb_.add_flag(words, member, field.help);
+      return verb_.add_flag(words, member, field.help);
     } else {
       CLI::Option* option = verb_.add_option(words, member, field.help);
       option->required(field.required);
@@ -41,18 +67,10 @@ class Binder {
       }
       if (!field.type_name.empty()) option->type_name(std::string(field.type_name));
       if (field.shows_default) option->capture_default_str();
+      return option;
     }
   }
 
-  /// "--offset-ms", or the words that the field specifies.
-  static std::string words_of(const calls::Field& field) {
-    if (!field.words.empty()) return std::string(field.words);
-    std::string words = fmt::format("--{}", field.name);
-    std::replace(words.begin(), words.end(), '_', '-');
-    return words;
-  }
-
- private:
   CLI::App& verb_;
   std::function<void(std::string_view)> before_;
 };

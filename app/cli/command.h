@@ -17,6 +17,8 @@ namespace signweave::calls {
 struct Listener;
 }
 
+namespace signweave::wire {}
+
 namespace signweave {
 class Database;
 }
@@ -24,7 +26,8 @@ class Database;
 /// The command line. Results go to `out`, everything else to `err`; errors are thrown.
 namespace signweave::cli {
 
-using namespace calls;  // requests and how they are answered: app/calls
+using namespace calls;  // requests and their answers: signweave/calls
+using namespace wire;   // answers as JSON: app/wire
 
 /// The output streams of a command, and how to write to them.
 struct Io {

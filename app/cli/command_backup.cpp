@@ -4,11 +4,12 @@
 #include <memory>
 #include <ostream>
 
-#include "app/calls/backup_call.h"
-#include "app/calls/table.h"
 #include "app/cli/bind.h"
 #include "app/cli/command.h"
 #include "app/cli/progress.h"
+#include "app/wire/text.h"
+#include "signweave/calls/backup_call.h"
+#include "signweave/calls/table.h"
 #include "signweave/core/text.h"
 #include "signweave/database/compact_file.h"
 
@@ -37,7 +38,7 @@ Run backup(CLI::App& verb) {
       report = calls::run(database, options->folder, options->call, listener);
     }
     if (io.json) {
-      io.out << text_of(json_of(report));
+      io.out << text_of(answer_json<nlohmann::json>(report));
       return;
     }
     io.out << fmt::format(
@@ -67,7 +68,7 @@ Run restore(CLI::App& verb) {
       report = calls::run(options->folder, options->database, options->call, listener);
     }
     if (io.json) {
-      io.out << text_of(json_of(report));
+      io.out << text_of(answer_json<nlohmann::json>(report));
       return;
     }
     io.out << fmt::format("{}: {} of state {}, {}\n", options->database, counted(report.recordings, "recording"),

@@ -2,11 +2,12 @@
 #include <memory>
 #include <ostream>
 
-#include "app/calls/info_call.h"
-#include "app/calls/table.h"
 #include "app/cli/command.h"
 #include "app/cli/progress.h"
+#include "app/wire/text.h"
 #include "signweave/backup/backup.h"
+#include "signweave/calls/info_call.h"
+#include "signweave/calls/table.h"
 #include "signweave/database/check.h"
 
 namespace signweave::cli {
@@ -40,7 +41,7 @@ Run check(CLI::App& verb) {
     }
     const std::vector<std::string>& faults = result.faults;
     if (io.json) {
-      io.out << text_of(calls::json_of(result));
+      io.out << text_of(answer_json<nlohmann::json>(result));
     } else if (faults.empty()) {
       io.out << counted(result.recordings, "recording") << ", no fault found\n";
     }

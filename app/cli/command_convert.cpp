@@ -2,11 +2,11 @@
 #include <memory>
 #include <ostream>
 
-#include "app/calls/convert_call.h"
 #include "app/cli/bind.h"
 #include "app/cli/command.h"
 #include "app/cli/delivery.h"
 #include "app/cli/progress.h"
+#include "signweave/calls/convert_call.h"
 #include "signweave/formats/file_format.h"
 
 namespace signweave::cli {

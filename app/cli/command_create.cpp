@@ -2,10 +2,11 @@
 #include <memory>
 #include <ostream>
 
-#include "app/calls/change_calls.h"
 #include "app/cli/bind.h"
 #include "app/cli/command.h"
 #include "app/cli/validators.h"
+#include "app/wire/text.h"
+#include "signweave/calls/change_calls.h"
 #include "signweave/database/database.h"
 
 namespace signweave::cli {

@@ -1,10 +1,10 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 
-#include "app/calls/synthesis_call.h"
 #include "app/cli/bind.h"
 #include "app/cli/command.h"
 #include "app/cli/delivery.h"
+#include "signweave/calls/synthesis_call.h"
 
 namespace signweave::cli {
 

@@ -4,12 +4,13 @@
 #include <memory>
 #include <ostream>
 
-#include "app/calls/collection_report.h"
-#include "app/calls/evaluate_call.h"
-#include "app/calls/table.h"
 #include "app/cli/bind.h"
 #include "app/cli/command.h"
 #include "app/cli/progress.h"
+#include "app/wire/text.h"
+#include "signweave/calls/collection_report.h"
+#include "signweave/calls/evaluate_call.h"
+#include "signweave/calls/table.h"
 #include "signweave/core/atomic_file.h"
 #include "signweave/core/text.h"
 #include "signweave/evaluation/collection_table.h"
@@ -76,7 +77,7 @@ void run_evaluate(const EvaluateArguments& options, Io& io) {
   progress.reset();
   Bootstrap bootstrap(options.call.seed);
   if (io.json) {
-    io.out << text_of(json_of(made, options.call, bootstrap));
+    io.out << text_of(answer_json(answer_of(made, options.call, bootstrap)));
     if (!options.plot.empty()) draw(options.plot, made.tasks, bootstrap);
     return;
   }

@@ -5,13 +5,14 @@
 #include <memory>
 #include <ostream>
 
-#include "app/calls/export_call.h"
-#include "app/calls/export_folder.h"
-#include "app/calls/table.h"
 #include "app/cli/bind.h"
 #include "app/cli/command.h"
 #include "app/cli/delivery.h"
 #include "app/cli/progress.h"
+#include "app/wire/text.h"
+#include "signweave/calls/export_call.h"
+#include "signweave/calls/export_folder.h"
+#include "signweave/calls/table.h"
 #include "signweave/formats/file_format.h"
 
 namespace signweave::cli {
@@ -22,13 +23,13 @@ struct ExportArguments {
   std::vector<std::string> recordings;
   bool all = false;
   std::vector<std::string> outputs;
-  std::vector<std::string> endings;
+  std::vector<std::string> extensions;
   calls::ExportCall call;
 };
 
 /// Accepts "bvh" for ".bvh".
-std::string with_dot(const std::string& ending) {
-  return ending.starts_with('.') ? ending : "." + ending;
+std::string with_dot(const std::string& extension) {
+  return extension.starts_with('.') ? extension : "." + extension;
 }
 
 void export_one(const ExportArguments& options, Io& io) {
@@ -57,7 +58,7 @@ void export_many(const ExportArguments& options, Io& io) {
     throw CLI::ValidationError("--character", "is for one recording and one file");
   }
   calls::FolderExport wanted{.recordings = options.recordings, .folder = options.outputs[0], .call = options.call};
-  for (const std::string& ending : options.endings) wanted.endings.push_back(with_dot(ending));
+  for (const std::string& extension : options.extensions) wanted.extensions.push_back(with_dot(extension));
   const Database database(options.database, kv::Access::read_only);
   report_damage(database, io);
   calls::FolderExported done;
@@ -69,7 +70,7 @@ void export_many(const ExportArguments& options, Io& io) {
   }
   for (const auto& [name, value] : done.declarations) io.err << "signweave: " << one_line(value) << '\n';
   if (io.json) {
-    io.out << text_of(json_of(done));
+    io.out << text_of(answer_json<nlohmann::json>(done));
     return;
   }
   io.out << fmt::format("{}: {} of {}, and pairs.csv for import\n", options.outputs[0],
@@ -91,9 +92,9 @@ Run export_recording(CLI::App& verb) {
                                 fmt::join(writable_extensions(), " ")))
         ->required()
         ->allow_extra_args(false);
-    verb.add_option("--as", options->endings,
+    verb.add_option("--as", options->extensions,
                     "extensions of the files of each recording in a folder; .bvh .face.csv .eaf if not given")
-        ->type_name("ENDING");
+        ->type_name("EXTENSION");
   });
   const auto bind_rest = [&binder](const calls::Field& field, auto& member) {
     if (field.name != "recording") binder(field, member);
@@ -104,7 +105,7 @@ Run export_recording(CLI::App& verb) {
       throw CLI::ValidationError(options->all ? "--all selects every recording: do not name any in addition"
                                               : "give one or several RECORDINGs, or --all");
     }
-    if (options->all || options->recordings.size() > 1 || !options->endings.empty()) {
+    if (options->all || options->recordings.size() > 1 || !options->extensions.empty()) {
       export_many(*options, io);
       return;
     }

@@ -4,11 +4,12 @@
 #include <memory>
 #include <ostream>
 
-#include "app/calls/import_call.h"
-#include "app/calls/table.h"
 #include "app/cli/bind.h"
 #include "app/cli/command.h"
 #include "app/cli/progress.h"
+#include "app/wire/text.h"
+#include "signweave/calls/import_call.h"
+#include "signweave/calls/table.h"
 #include "signweave/formats/file_format.h"
 
 namespace signweave::cli {
@@ -19,6 +20,11 @@ struct ImportArguments {
   std::vector<std::string> inputs;
   calls::ImportCall call;
 };
+
+/// The outcome for people: JSON keeps one older spelling, because programs compare it.
+std::string_view outcome_text(ImportOutcome outcome) {
+  return outcome == ImportOutcome::measured ? "measured again" : name_of(outcome);
+}
 
 /// Prints one recording on `out`, or its error on `err`.
 void print(const calls::Imported& imported, Io& io) {
@@ -35,7 +41,7 @@ void print(const calls::Imported& imported, Io& io) {
     print_notices(io, {{report.name, "its phases are not measured: " + report.not_measured}});
   }
   if (io.json) return;
-  std::string line = fmt::format("{}: {}", report.name, name_of(report.outcome));
+  std::string line = fmt::format("{}: {}", report.name, outcome_text(report.outcome));
   if (report.outcome != ImportOutcome::unchanged) {
     line += ", " + counted(static_cast<std::size_t>(report.frames), "frame");
     if (report.tracks > 0) line += ", " + counted(report.tracks, "scalar track");
@@ -68,7 +74,7 @@ void run_import(const ImportArguments& options, Io& io) {
                    ++finished;
                    progress.hide();
                    print(imported, io);
-                   if (io.json) recordings.push_back(json_of(imported));
+                   if (io.json) recordings.push_back(answer_json<nlohmann::json>(imported));
                  });
     } catch (const Error& error) {
       if (error.code() != ErrorCode::cancelled) throw;

@@ -7,23 +7,23 @@
 #include <ostream>
 #include <set>
 
-#include "app/calls/defect_report.h"
-#include "app/calls/json.h"
-#include "app/calls/motion_reading.h"
-#include "app/calls/table.h"
 #include "app/cli/bind.h"
 #include "app/cli/command.h"
 #include "app/cli/info_database.h"
 #include "app/cli/progress.h"
 #include "app/cli/rig_report.h"
+#include "app/wire/text.h"
 #include "signweave/annotation/sign.h"
 #include "signweave/backup/backup.h"
+#include "signweave/calls/defect_report.h"
+#include "signweave/calls/motion_reading.h"
+#include "signweave/calls/table.h"
 #include "signweave/core/atomic_file.h"
 #include "signweave/core/text.h"
 #include "signweave/formats/annotation_file.h"
 #include "signweave/formats/face/face_csv.h"
 #include "signweave/formats/file_format.h"
-#include "signweave/score/score_json.h"
+#include "signweave/notation/score_json.h"
 
 namespace signweave::cli {
 namespace {
@@ -66,9 +66,9 @@ void info_of_motion(const std::string& path, const calls::MotionReading& motion_
     auto names = nlohmann::ordered_json::array();
     for (const Joint& joint : skeleton.joints()) names.push_back(joint.name);
     fields["joint_names"] = std::move(names);
-    fields["rig"] = json_of_rig(skeleton, rig);
-    fields["defects"] = calls::json_of(defects, skeleton);
-    fields["notices"] = json_of(file.notices);
+    fields["rig"] = answer_json(calls::rig_answer(skeleton, rig));
+    fields["defects"] = answer_json(calls::defect_rows(defects, skeleton));
+    fields["notices"] = answer_json(file.notices);
     io.out << text_of(fields);
     return;
   }
@@ -100,7 +100,7 @@ void info_of_face(const std::string& path, Io& io) {
       {"seconds", seconds}, {"rows_per_second", rows_per_second}, {"timecode_frames_per_second", face.rate.hertz()}};
   if (io.json) {
     fields["tracks"] = names;
-    fields["notices"] = json_of(face.notices);
+    fields["notices"] = answer_json(face.notices);
     io.out << text_of(fields);
     return;
   }
@@ -141,7 +141,7 @@ void info_of_annotation(const std::string& path, Io& io) {
                            {"format", format},
                            {"tiers", std::move(tiers)},
                            {"signs", found.signs.size()},
-                           {"notices", json_of(notices)}});
+                           {"notices", answer_json<nlohmann::json>(notices)}});
     return;
   }
   std::size_t annotations = 0;
@@ -214,7 +214,7 @@ Run info(CLI::App& verb) {
     } else if (!std::filesystem::exists(options->path, ignored)) {
       throw Error(ErrorCode::not_found, options->path + ": no such file or database");
     } else if (!std::filesystem::is_regular_file(options->path, ignored)) {
-      throw Error(ErrorCode::bad_input, options->path + ": is no file");
+      throw Error(ErrorCode::bad_input, options->path + ": is not a file");
     } else if (kind == FileKind::motion) {
       info_of_motion(options->path, options->motion, options->rig, io);
     } else if (kind == FileKind::annotation) {

@@ -4,13 +4,14 @@
 #include <memory>
 #include <ostream>
 
-#include "app/calls/export_folder.h"
-#include "app/calls/query_call.h"
-#include "app/calls/query_documents.h"
-#include "app/calls/table.h"
 #include "app/cli/bind.h"
 #include "app/cli/command.h"
 #include "app/cli/validators.h"
+#include "app/wire/text.h"
+#include "signweave/calls/export_folder.h"
+#include "signweave/calls/query_call.h"
+#include "signweave/calls/query_documents.h"
+#include "signweave/calls/table.h"
 #include "signweave/formats/eaf/eaf.h"
 
 namespace signweave::cli {
@@ -47,7 +48,7 @@ void run_query(const QueryArguments& options, Io& io) {
   } else if (options.format == "eaf") {
     write_files(options, database, report, io);
   } else if (io.json || options.format == "json") {
-    io.out << text_of(json_of(report));
+    io.out << text_of(answer_json<nlohmann::json>(answer_of(report)));
   } else if (options.format == "csv") {
     io.out << format_csv(rows_of(report));
   } else {

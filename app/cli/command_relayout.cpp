@@ -4,11 +4,12 @@
 #include <memory>
 #include <ostream>
 
-#include "app/calls/change_calls.h"
-#include "app/calls/table.h"
 #include "app/cli/bind.h"
 #include "app/cli/command.h"
 #include "app/cli/progress.h"
+#include "app/wire/text.h"
+#include "signweave/calls/change_calls.h"
+#include "signweave/calls/table.h"
 #include "signweave/database/database.h"
 
 namespace signweave::cli {
@@ -30,7 +31,7 @@ Run relayout(CLI::App& verb) {
     if (options->call.recordings.empty()) report_damage(database, io);
     calls::Relayouted done;
     {
-      Progress progress(io, "storing anew");
+      Progress progress(io, "storing again");
       calls::Listener listener = listener_of(io);
       listener.progress = [&](double fraction) { progress.show(fraction); };
       std::size_t changed = 0;
@@ -39,17 +40,17 @@ Run relayout(CLI::App& verb) {
       } catch (const Error& error) {
         if (error.code() != ErrorCode::cancelled) throw;
         throw Error(ErrorCode::cancelled,
-                    fmt::format("stopped after {} were stored anew; the others are unchanged, and the same "
+                    fmt::format("stopped after {} were stored again; the others are unchanged, and the same "
                                 "command continues with them",
                                 counted(changed, "recording")));
       }
     }
     learn(database, listener_of(io));
     if (io.json) {
-      io.out << text_of(json_of(done));
+      io.out << text_of(answer_json<nlohmann::json>(done));
       return;
     }
-    io.out << fmt::format("{} of {} stored anew\n", done.changed.size(), counted(done.recordings, "recording"));
+    io.out << fmt::format("{} of {} stored again\n", done.changed.size(), counted(done.recordings, "recording"));
   };
 }
 

@@ -2,9 +2,10 @@
 #include <memory>
 #include <ostream>
 
-#include "app/calls/change_calls.h"
 #include "app/cli/bind.h"
 #include "app/cli/command.h"
+#include "app/wire/text.h"
+#include "signweave/calls/change_calls.h"
 
 namespace signweave::cli {
 
@@ -19,9 +20,9 @@ Run remove(CLI::App& verb) {
   return [options](Io& io) {
     Database database(options->folder, kv::Access::read_write);
     database.announce("signweave remove");
-    const nlohmann::json report = calls::run(database, options->call);
+    const calls::Removed removed = calls::run(database, options->call);
     learn(database, listener_of(io));
-    if (io.json) io.out << text_of(report);
+    if (io.json) io.out << text_of(answer_json(removed));
   };
 }
 

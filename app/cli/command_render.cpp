@@ -11,8 +11,6 @@
 #include <random>
 #include <thread>
 
-#include "app/calls/synthesis_call.h"
-#include "app/calls/table.h"
 #include "app/cli/bind.h"
 #include "app/cli/browser.h"
 #include "app/cli/command.h"
@@ -21,6 +19,9 @@
 #include "app/cli/validators.h"
 #include "app/server/api.h"
 #include "app/server/server.h"
+#include "app/wire/text.h"
+#include "signweave/calls/synthesis_call.h"
+#include "signweave/calls/table.h"
 #include "signweave/core/atomic_file.h"
 #include "signweave/core/text.h"
 #include "signweave/formats/write_file.h"
@@ -310,13 +311,12 @@ void run_render(const RenderArguments& given, Io& io) {
   }
   const std::vector<std::string> files = save_all(drawn_here, given.output);
   const auto contents = databases.all().front()->database().contents();
-  std::map<std::string, std::string> declared;
-  for (const RecordingInfo& info : contents->recordings)
-    declared.insert(info.declarations.begin(), info.declarations.end());
+  Declarations declared;
+  for (const RecordingInfo& info : contents->recordings) merge_declarations(info.declarations, declared);
   for (const auto& [name, value] : declared) io.err << "signweave: " << value << '\n';
   if (io.json) {
     said["files"] = files;
-    io.out << calls::text_of(said);
+    io.out << wire::text_of(said);
     return;
   }
   io.out << fmt::format("{}: {} at {} frames a second\n", files.size() == 1 ? files.front() : files.front() + " …",

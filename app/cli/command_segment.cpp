@@ -5,12 +5,13 @@
 #include <memory>
 #include <ostream>
 
-#include "app/calls/motion_reading.h"
-#include "app/calls/segment_call.h"
-#include "app/calls/table.h"
 #include "app/cli/bind.h"
 #include "app/cli/command.h"
 #include "app/cli/progress.h"
+#include "app/wire/text.h"
+#include "signweave/calls/motion_reading.h"
+#include "signweave/calls/segment_call.h"
+#include "signweave/calls/table.h"
 #include "signweave/database/database.h"
 #include "signweave/features/phase_proposals.h"
 #include "signweave/formats/eaf/eaf.h"
@@ -34,7 +35,7 @@ std::string_view name_of_hand(Side side) {
 }
 
 void print_table(const ProposedPhases& proposed, Io& io) {
-  std::vector<std::vector<std::string>> rows = {{"hand", "phase", "stretches", "seconds", "confidence"}};
+  std::vector<std::vector<std::string>> rows = {{"hand", "phase", "spans", "seconds", "confidence"}};
   for (const Side side : {Side::right, Side::left}) {
     for (std::size_t phase = 0; phase < kMotionPhases; ++phase) {
       std::size_t count = 0;
@@ -76,7 +77,7 @@ Proposals of_recording(const SegmentArguments& options, Io& io) {
   const Database database(options.motion, kv::Access::read_only);
   report_damage(database, io);
   return {calls::run(database, calls::SegmentCall{options.recording}),
-          database.contents()->at(options.recording).motion_file};
+          database.contents()->at(options.recording).motion_facts.file};
 }
 
 Proposals of_file(const SegmentArguments& options, Io& io) {
@@ -100,7 +101,9 @@ void run_segment(const SegmentArguments& options, Io& io) {
     eaf::write(options.output, proposals_document(made.proposed, made.length, motion));
   }
   if (io.json) {
-    io.out << text_of(json_of(made, stored ? "recording" : "file", stored ? options.recording : options.motion));
+    calls::ProposalsAnswer answer = answer_of(made);
+    (stored ? answer.recording : answer.file) = stored ? options.recording : options.motion;
+    io.out << text_of(answer_json(answer));
   } else {
     print_table(made.proposed, io);
   }

@@ -3,13 +3,13 @@
 #include <memory>
 #include <optional>
 
-#include "app/calls/synthesis_call.h"
 #include "app/cli/bind.h"
 #include "app/cli/command.h"
 #include "app/cli/delivery.h"
+#include "signweave/calls/synthesis_call.h"
 #include "signweave/core/atomic_file.h"
 #include "signweave/core/text.h"
-#include "signweave/score/score_json.h"
+#include "signweave/notation/score_json.h"
 
 namespace signweave::cli {
 namespace {
@@ -19,13 +19,13 @@ constexpr const char* kDecided[] = {"--transition", "--duration", "--tempo",   "
                                     "--junction",   "--rate",     "--missing", "--explain"};
 
 /// "bvh" of "out.bvh", and what is written alongside.
-std::vector<std::string> endings_of(const Delivery& delivery) {
-  std::vector<std::string> endings;
+std::vector<std::string> extensions_of(const Delivery& delivery) {
+  std::vector<std::string> extensions;
   for (const std::string& file : delivery.outputs) {
-    const std::string ending = std::filesystem::path(file).extension().string();
-    if (!ending.empty()) endings.push_back(fold_case(ending.substr(1)));
+    const std::string extension = std::filesystem::path(file).extension().string();
+    if (!extension.empty()) extensions.push_back(fold_case(extension.substr(1)));
   }
-  return endings;
+  return extensions;
 }
 
 }  // namespace
@@ -63,8 +63,9 @@ Run sign(CLI::App& verb) {
     report_damage(database, io);
     check_signing_space(options->call.how.signing_space, options->delivery.outputs);
     const calls::SharedCharacter character = character_of(options->call.how.character);
-    Synthesized made = score ? calls::run(database, *score, {.frames = options->frames}, endings_of(options->delivery))
-                             : calls::run(database, options->call);
+    Synthesized made = score
+                           ? calls::run(database, *score, {.frames = options->frames}, extensions_of(options->delivery))
+                           : calls::run(database, options->call);
     if (character) show_on(made, stance_of(database, signer_of(made)), *character);
     deliver(made, options->call.how, options->delivery, title, character, io);
   };

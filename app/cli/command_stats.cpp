@@ -4,11 +4,12 @@
 #include <memory>
 #include <ostream>
 
-#include "app/calls/stats_call.h"
-#include "app/calls/table.h"
 #include "app/cli/bind.h"
 #include "app/cli/command.h"
 #include "app/cli/validators.h"
+#include "app/wire/text.h"
+#include "signweave/calls/stats_call.h"
+#include "signweave/calls/table.h"
 #include "signweave/core/atomic_file.h"
 #include "signweave/database/database.h"
 #include "signweave/formats/write_file.h"
@@ -74,7 +75,7 @@ void run_stats(const StatsArguments& options, Io& io) {
     file.commit();
   }
   if (io.json || options.format == "json") {
-    io.out << text_of(json_of(options.call, counted));
+    io.out << text_of(answer_json<nlohmann::json>(answer_of(options.call, counted)));
   } else if (csv) {
     io.out << format_csv(csv_of(options.call, counted));
   } else {

@@ -2,10 +2,11 @@
 #include <memory>
 #include <ostream>
 
-#include "app/calls/table.h"
-#include "app/calls/xpath_call.h"
 #include "app/cli/bind.h"
 #include "app/cli/command.h"
+#include "app/wire/text.h"
+#include "signweave/calls/table.h"
+#include "signweave/calls/xpath_call.h"
 
 namespace signweave::cli {
 
@@ -24,7 +25,7 @@ Run xpath(CLI::App& verb) {
     report_damage(database, io);
     const std::vector<XPathAnswer> answers = calls::run(database, options->call);
     if (io.json) {
-      io.out << text_of(calls::json_of(answers));
+      io.out << text_of(answer_json<nlohmann::json>(calls::node_answers(answers)));
       return;
     }
     io.out << format_table(calls::rows_of(answers)) << counted(answers.size(), "answer") << '\n';

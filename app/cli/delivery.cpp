@@ -1,4 +1,5 @@
 #include "app/cli/delivery.h"
+#include "app/wire/text.h"
 
 #include <fmt/format.h>
 
@@ -7,15 +8,15 @@
 #include <cmath>
 #include <ostream>
 
-#include "app/calls/table.h"
 #include "app/cli/bind.h"
 #include "app/cli/progress.h"
 #include "app/cli/selection_report.h"
+#include "signweave/calls/table.h"
 #include "signweave/core/atomic_file.h"
 #include "signweave/core/text.h"
 #include "signweave/formats/file_format.h"
 #include "signweave/formats/write_file.h"
-#include "signweave/score/score_json.h"
+#include "signweave/notation/score_json.h"
 
 namespace signweave::cli {
 namespace {
@@ -102,7 +103,7 @@ void deliver(const calls::Exported& made, const std::vector<std::string>& output
   }
   for (const auto& [name, value] : made.info.declarations) io.err << "signweave: " << value << '\n';
   if (!io.json) return;
-  nlohmann::json report = json_of(made);
+  auto report = answer_json<nlohmann::json>(made);
   report["files"] = outputs;
   io.out << text_of(report);
 }
@@ -144,7 +145,7 @@ void deliver(const Synthesized& made, const calls::SynthesisChoices& choices, co
     return;
   }
   if (io.json) {
-    nlohmann::json report = report_of(made, choices);
+    auto report = answer_json<nlohmann::json>(calls::report_of(made, choices));
     report["files"] = delivery.outputs;
     if (!delivery.score.empty()) report["score"] = delivery.score;
     io.out << text_of(report);

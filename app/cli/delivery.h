@@ -3,9 +3,9 @@
 #include <string>
 #include <vector>
 
-#include "app/calls/export_call.h"
-#include "app/calls/synthesis_call.h"
 #include "app/cli/command.h"
+#include "signweave/calls/export_call.h"
+#include "signweave/calls/synthesis_call.h"
 
 namespace signweave::cli {
 

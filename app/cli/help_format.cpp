@@ -37,6 +37,12 @@ std::string wrapped(const std::string& text, std::size_t width) {
   return result;
 }
 
+std::string HelpFormat::make_group(std::string group, bool is_positional,
+                                   std::vector<const CLI::Option*> options) const {
+  if (group == kHidden) return {};
+  return Formatter::make_group(std::move(group), is_positional, std::move(options));
+}
+
 std::string HelpFormat::make_option_desc(const CLI::Option* option) const {
   return wrapped(Formatter::make_option_desc(option), kWidth - get_column_width());
 }

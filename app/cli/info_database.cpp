@@ -1,15 +1,16 @@
 #include "app/cli/info_database.h"
+#include "app/wire/text.h"
 
 #include <fmt/format.h>
 
 #include <ostream>
 
-#include "app/calls/backup_call.h"
-#include "app/calls/defect_report.h"
-#include "app/calls/info_call.h"
-#include "app/calls/selection_report.h"
-#include "app/calls/table.h"
 #include "app/cli/rig_report.h"
+#include "signweave/calls/backup_call.h"
+#include "signweave/calls/defect_report.h"
+#include "signweave/calls/info_call.h"
+#include "signweave/calls/selection_report.h"
+#include "signweave/calls/table.h"
 #include "signweave/core/text.h"
 #include "signweave/database/check.h"
 #include "signweave/database/database.h"
@@ -43,7 +44,7 @@ void info_of_database(const std::string& folder, Io& io) {
   const calls::DatabaseInfo found = run_info(
       database, [&] { return usage_in_child(folder); }, listener_of(io));
   if (io.json) {
-    io.out << text_of(json_of(found));
+    io.out << text_of(answer_json<nlohmann::json>(found));
     return;
   }
   const kv::EngineInfo& engine = found.engine;
@@ -90,7 +91,7 @@ void info_of_database(const std::string& folder, Io& io) {
 void info_of_backup(const std::string& folder, Io& io) {
   const std::vector<BackupState> states = backup_states(folder);
   if (io.json) {
-    io.out << text_of(calls::json_of(states));
+    io.out << text_of(answer_json<nlohmann::json>(calls::BackupStatesAnswer{states}));
     return;
   }
   std::vector<std::vector<std::string>> rows = {{"state", "made", "database", "recordings", "size"}};
@@ -109,10 +110,12 @@ void info_of_recording(const std::string& folder, const std::string& name, Io& i
   const Database database(folder, kv::Access::read_only);
   const calls::RecordingDetails found = calls::run(database, calls::RecordingCall{.recording = name});
   if (io.json) {
-    io.out << text_of(json_of(found));
+    io.out << text_of(answer_json(found));
     return;
   }
-  print_pairs(io, found.figures);
+  AnswerJsonWriter<nlohmann::ordered_json> figures;
+  calls::figure_fields(figures, found);
+  print_pairs(io, figures.object);
   if (found.model) {
     io.out << table_of(found.info.defects, *found.skeleton, {});
     print_rig(*found.skeleton, found.model->rig, found.info.name, io);

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <ostream>
 
-#include "app/calls/table.h"
+#include "signweave/calls/table.h"
 #include "signweave/core/text.h"
 
 namespace signweave::cli {

@@ -2,8 +2,8 @@
 
 #include <string>
 
-#include "app/calls/rig_json.h"
 #include "app/cli/command.h"
+#include "signweave/calls/rig_answer.h"
 #include "signweave/motion/motion.h"
 #include "signweave/rig/rig_map.h"
 

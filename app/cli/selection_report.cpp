@@ -6,7 +6,7 @@
 #include <ostream>
 #include <vector>
 
-#include "app/calls/table.h"
+#include "signweave/calls/table.h"
 #include "signweave/core/text.h"
 
 namespace signweave::cli {

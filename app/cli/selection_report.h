@@ -1,7 +1,7 @@
 #pragma once
 
-#include "app/calls/selection_report.h"
 #include "app/cli/command.h"
+#include "signweave/calls/selection_report.h"
 
 namespace signweave::cli {
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "app/calls/field.h"
+#include "signweave/calls/field.h"
 
 namespace signweave::cli {
 

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "app/calls/fault_json.h"
+#include "app/wire/fault.h"
 #include "signweave/core/text.h"
 #include "signweave/formats/file_format.h"
 
@@ -77,8 +77,8 @@ int status_of(const Error& error) {
 
 json error_json(const Error& error, const std::function<std::string(std::string)>& redact) {
   const auto* own = dynamic_cast<const StatusError*>(&error);
-  const std::string_view code = own != nullptr ? std::string_view(own->name()) : calls::name_of(error.code());
-  return calls::fault_json(error, code, message_of(redact(error.what())));
+  const std::string_view code = own != nullptr ? std::string_view(own->name()) : name_of(error.code());
+  return wire::fault_json(error, code, message_of(redact(error.what())));
 }
 
 ApiResponse error_answer(const Error& error, const std::function<std::string(std::string)>& redact) {
@@ -102,10 +102,11 @@ ApiResponse file_answer(const AnswerFormat& format, const std::string& stem, std
                        byte == '-' || byte == '_' || byte == '.';
     name += plain ? std::string(1, c) : fmt::format("%{:02X}", byte);
   }
-  return {.status = 200,
-          .content_type = std::string(format.media_type),
-          .headers = {{"Content-Disposition", fmt::format("attachment; filename*=UTF-8''{}{}", name, format.ending)}},
-          .body = std::move(body)};
+  return {
+      .status = 200,
+      .content_type = std::string(format.media_type),
+      .headers = {{"Content-Disposition", fmt::format("attachment; filename*=UTF-8''{}{}", name, format.extension)}},
+      .body = std::move(body)};
 }
 
 std::string header_json(const json& document) {

@@ -44,7 +44,7 @@ ApiResponse json_answer(const Json& document, int status = 200) {
 /// The file extension and media type of a format: "bvh" -> ".bvh".
 struct AnswerFormat {
   std::string_view name;
-  std::string_view ending;
+  std::string_view extension;
   std::string_view media_type;
 };
 /// Throws Error{bad_input} if there is no format of this name.

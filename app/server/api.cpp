@@ -1,12 +1,13 @@
 #include "app/server/api.h"
+#include "signweave/notation/answer_json.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <new>
 
-#include "app/calls/json.h"
 #include "app/server/routes.h"
+#include "app/wire/text.h"
 #include "signweave/core/text.h"
 
 namespace signweave::server {
@@ -69,7 +70,7 @@ const Route& route_of(const ApiRequest& request, std::string& allowed) {
 /// Checks what a route requires of every request.
 void check_request(const Call& call) {
   const Route& route = call.route;
-  if (route.source != Source::query) calls::FieldReader(call.request.query, {}).finish();
+  if (route.source != Source::query) wire::FieldReader(call.request.query, {}).finish();
   const bool has_body = !call.request.body.empty() && !route.takes_file;
   if (has_body && route.source != Source::body && route.takes.empty()) {
     throw Error(ErrorCode::bad_input, fmt::format("{} {} takes no body", route.method, route.path));
@@ -94,16 +95,17 @@ ApiResponse answer_call(ApiState& state, const ApiRequest& request, std::string&
   if (response.status == 200 && route.status != 200) response.status = route.status;
   // In headers, because files and lists have no room for them. Clients would refuse long lists.
   if (!call.declarations.empty()) {
-    response.headers.emplace_back("Signweave-Declarations", header_json(call.declarations));
+    response.headers.emplace_back("Signweave-Declarations",
+                                  header_json(answer_json<nlohmann::json>(call.declarations)));
   }
   if (!call.notices.empty()) {
-    nlohmann::json notices = nlohmann::json::array();
-    for (const Notice& notice : call.notices) {
-      if (notices.size() == 10) break;
-      notices.push_back({{"where", redacted(state, notice.where)}, {"text", redacted(state, notice.text)}});
-      if (!notice.remedies.empty()) notices.back()["remedies"] = calls::json_of(notice.remedies);
+    std::vector<Notice> notices(
+        call.notices.begin(),
+        call.notices.begin() + static_cast<std::ptrdiff_t>(std::min<std::size_t>(10, call.notices.size())));
+    for (Notice& notice : notices) {
+      notice = {redacted(state, notice.where), redacted(state, notice.text), notice.remedies};
     }
-    response.headers.emplace_back("Signweave-Notices", header_json(notices));
+    response.headers.emplace_back("Signweave-Notices", header_json(answer_json<nlohmann::json>(notices)));
   }
   return response;
 }

@@ -98,6 +98,37 @@ TEST(ApiChanges, AnInspectionReportsWhatAnImportWouldStore) {
   EXPECT_EQ(again["result"]["recordings"][0]["tiers"][0]["hand"], "right");
 }
 
+TEST(ApiChanges, AnInspectionReportsWhatAnImportWouldChange) {
+  TestApi api(true);
+  const std::string bvh = another_bvh();
+  const std::string eaf = eaf::write_text(another().document);
+  import(api, upload_of(api, {{"a.bvh", bvh}, { "a.eaf", eaf }}));
+  const auto plan = [&](const std::vector<std::pair<std::string, std::string>>& files,
+                        const json& parameters = json::object()) {
+    const json found = inspect(api, upload_of(api, files), parameters)["result"]["recordings"][0];
+    EXPECT_FALSE(found.contains("error")) << found;
+    return found["plan"];
+  };
+  EXPECT_EQ(plan({{"b.bvh", bvh}}),
+            json({{"recording", "b"}, {"outcome", "added"}, {"changes", {{"motion", "added"}, {"clock", "added"}}}}));
+  EXPECT_EQ(plan({{"a.bvh", bvh}, {"a.eaf", eaf}}),
+            json({{"recording", "a"}, {"outcome", "unchanged"}, {"changes", json::object()}}));
+  AnnotationDocument changed = another().document;
+  changed.author = "another author";
+  const json replaces = plan({{"a.bvh", bvh}, {"a.eaf", eaf::write_text(changed)}});
+  EXPECT_EQ(replaces["outcome"], "annotation replaced");
+  EXPECT_EQ(replaces["changes"], json({{"annotation", "replaced"}}));
+  const json moves = plan({{"a.eaf", eaf}}, {{"offset_ms", 40}});
+  EXPECT_EQ(moves["outcome"], "clock, signer or rig changed");
+  EXPECT_EQ(moves["changes"], json({{"clock", "replaced"}}));
+  const json refused = plan({{"a.bvh", bvh}}, {{"unit", "m"}});
+  EXPECT_EQ(refused["outcome"], "refused");
+  EXPECT_THAT(refused["error"].get<std::string>(), StartsWith("a.bvh: is not the motion that recording 'a'"));
+  EXPECT_EQ(refused["remedies"], json::parse(R"([{"parameter": "replace_motion", "value": "true"}])"));
+  EXPECT_EQ(plan({{"a.bvh", bvh}}, {{"unit", "m"}, {"replace_motion", true}})["outcome"], "motion replaced");
+  EXPECT_EQ(api.database().info("a")->motion_facts.layout->unit, 0.01);  // nothing was stored
+}
+
 TEST(ApiChanges, SomeRecordingsOfAnUploadAreImportedAndTheOthersLater) {
   TestApi api(true);
   const std::string id = upload_of(api, {{"a.bvh", another_bvh()}, {"b.bvh", another_bvh()}});
@@ -108,8 +139,8 @@ TEST(ApiChanges, SomeRecordingsOfAnUploadAreImportedAndTheOthersLater) {
   EXPECT_EQ(first["result"]["recordings"][0]["name"], "b");
   EXPECT_EQ(import(api, id, {{"recordings", json::array({"a"})}, {"up", "z"}})["result"]["recordings"][0]["name"], "a");
   EXPECT_EQ(api.database().contents()->recordings.size(), 4u);
-  EXPECT_EQ(api.database().info("a")->layout->up, bvh::UpAxis::z);
-  EXPECT_EQ(api.database().info("b")->layout->up, bvh::UpAxis::y);
+  EXPECT_EQ(api.database().info("a")->motion_facts.layout->up, bvh::UpAxis::z);
+  EXPECT_EQ(api.database().info("b")->motion_facts.layout->up, bvh::UpAxis::y);
   EXPECT_EQ(api.send("DELETE", at({"uploads", id})).status, 200);
 }
 
@@ -130,7 +161,11 @@ TEST(ApiChanges, AnAnnotationReplacedMeanwhileIsNotOverwritten) {
   const std::string ours = upload_of(api, {{"a.eaf", eaf::write_text(changed)}});
   EXPECT_THAT(fault_of(api.send("POST", at({"uploads", ours, "import"}), {{"if_annotation", "a.eaf"}})),
               HasSubstr("expected annotation_fingerprint"));
-  EXPECT_FALSE(inspect(api, ours, {{"if_annotation", before}})["result"]["recordings"][0].contains("error"));
+  const json looked = inspect(api, ours, {{"if_annotation", before}})["result"]["recordings"][0];
+  EXPECT_FALSE(looked.contains("error"));
+  EXPECT_EQ(looked["plan"]["outcome"], "refused");
+  EXPECT_THAT(looked["plan"]["error"].get<std::string>(), HasSubstr("is no longer " + before));
+  EXPECT_EQ(looked["plan"]["remedies"][0]["parameter"], "if_annotation");
   const json refused = import(api, ours, {{"if_annotation", before}})["result"]["recordings"][0];
   EXPECT_EQ(refused["outcome"], "failed");
   EXPECT_THAT(refused["error"].get<std::string>(), HasSubstr("is no longer " + before + " but " + fingerprint()));
@@ -297,7 +332,7 @@ TEST(ApiChanges, ARecordingIsRemovedButNotWhileAJobChangesTheDatabase) {
   EXPECT_THAT(fault_of(api.send("DELETE", at({"recordings", "meteo"}))), StartsWith("404 not_found"));
 }
 
-TEST(ApiChanges, MotionsAreRelaidOut) {
+TEST(ApiChanges, MotionsAreStoredInAnotherLayout) {
   TestApi api(true);
   const ApiResponse begun = api.send("POST", at({"relayout"}), {{"access_mode", "by_joint"}});
   ASSERT_EQ(begun.status, 202);

@@ -143,7 +143,7 @@ TEST(ApiDocument, EveryFieldOfTheParametersIsInTheDocs) {
   const std::string docs = read_file(std::string(SIGNWEAVE_SOURCE_DIR) + "/docs/http.md");
   for (const Route& route : routes()) {
     if (route.parameters == nullptr) continue;
-    const calls::SchemaWriter writer = route.parameters();
+    const wire::SchemaWriter writer = route.parameters();
     for (const auto& [name, schema] : writer.properties.items()) {
       EXPECT_THAT(docs, HasSubstr("`" + name + "`")) << route.id;
     }
@@ -214,6 +214,8 @@ TEST(ApiDocument, AnswersToPostAndErrorsMatchTheirSchemas) {
   EXPECT_THAT(
       faults_of(json_in(api.send("POST", sign, {{"utterance", "VANNES MATIN"}, {"explain", true}})), "Synthesis"),
       testing::IsEmpty());
+  EXPECT_THAT(faults_of(json_in(api.send("POST", {"utterance"}, {{"text", "A , r@1..2 B#0 ."}})), "UtteranceText"),
+              testing::IsEmpty());
   const json score = json_in(api.send("POST", sign, {{"utterance", "VANNES MATIN"}, {"format", "score"}}));
   EXPECT_THAT(faults_of(score, "Score"), testing::IsEmpty());
   EXPECT_THAT(faults_of(json_in(api.send("POST", {"databases", "demo", "score"}, score)), "Synthesis"),

@@ -229,15 +229,15 @@ TEST(Api, ExportsARecordingOrAPartOfIt) {
   // The field names are those of the API, not of the command line.
   EXPECT_THAT(fault_of(reading().get(at({"recordings", "meteo", "motion"}), {{"from", "2"}, {"to", "1"}})),
               HasSubstr("'from' must be before 'to'"));
-  const auto remade = [&](const char* remake, const char* transition) {
+  const auto regenerated = [&](const char* regenerate, const char* transition) {
     return reading().get(at({"recordings", "meteo", "motion"}),
-                         {{"from", "1000"}, {"to", "2000"}, {"remake", remake}, {"transition", transition}});
+                         {{"from", "1000"}, {"to", "2000"}, {"regenerate", regenerate}, {"transition", transition}});
   };
-  EXPECT_THAT(remade("1400..1600", "hermite").body, StartsWith("HIERARCHY"));
-  EXPECT_THAT(fault_of(remade("1400-1600", "hermite")),
-              StartsWith("400 bad_input: remake: '1400-1600': expected FROM"));
-  EXPECT_THAT(fault_of(remade("1400..1600", "hermit")), HasSubstr("did you mean hermite"));
-  EXPECT_THAT(fault_of(remade("1400..2000", "hermite")),
+  EXPECT_THAT(regenerated("1400..1600", "hermite").body, StartsWith("HIERARCHY"));
+  EXPECT_THAT(fault_of(regenerated("1400-1600", "hermite")),
+              StartsWith("400 bad_input: regenerate: '1400-1600': expected FROM"));
+  EXPECT_THAT(fault_of(regenerated("1400..1600", "hermit")), HasSubstr("did you mean hermite"));
+  EXPECT_THAT(fault_of(regenerated("1400..2000", "hermite")),
               StartsWith("400 bad_input: regenerate 1400..2000: 3 captured"));
 }
 

@@ -80,11 +80,11 @@ TEST(FramesAnswer, ReportsRegeneratedFrames) {
   };
   const Frames plain = part({});
   for (const TransitionMethod& method : transition_methods()) {
-    const Frames made = part({{"remake", "28500..28800,29800..30100"}, {"transition", std::string(method.name)}});
+    const Frames made = part({{"regenerate", "28500..28800,29800..30100"}, {"transition", std::string(method.name)}});
     ASSERT_EQ(made.poses.size(), plain.poses.size());
-    EXPECT_EQ(made.head["report"]["remade"].size(), 2u);
-    EXPECT_EQ(made.head["report"]["remade"][1]["begin_ms"], 29'800);
-    EXPECT_EQ(made.head["report"]["remade"][1]["method"], method.name);
+    EXPECT_EQ(made.head["report"]["regenerated"].size(), 2u);
+    EXPECT_EQ(made.head["report"]["regenerated"][1]["begin_ms"], 29'800);
+    EXPECT_EQ(made.head["report"]["regenerated"][1]["method"], method.name);
     std::size_t changed = 0;
     for (std::size_t frame = 0; frame < plain.poses.size(); ++frame) {
       const bool inside = (frame >= 50 && frame < 80) || (frame >= 180 && frame < 210);
@@ -96,9 +96,9 @@ TEST(FramesAnswer, ReportsRegeneratedFrames) {
     }
     EXPECT_GE(changed, 30u) << method.name;
   }
-  const Frames shown = part({{"remake", "28500..28800"}, {"character", "woman"}});
+  const Frames shown = part({{"regenerate", "28500..28800"}, {"character", "woman"}});
   EXPECT_EQ(shown.poses.size(), plain.poses.size());
-  EXPECT_EQ(shown.head["report"]["remade"].size(), 1u);
+  EXPECT_EQ(shown.head["report"]["regenerated"].size(), 1u);
 }
 
 TEST(FramesAnswer, ReportsHowTheResultWasMade) {

@@ -3,9 +3,8 @@
 #include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
-#include <utility>
-#include <vector>
 
+#include "signweave/annotation/declarations.h"
 #include "signweave/motion/motion.h"
 
 namespace signweave::server {
@@ -14,7 +13,7 @@ namespace signweave::server {
 struct FramesHead {
   std::string_view database;
   std::string recording;  ///< the recording whose signer it is
-  std::vector<std::pair<std::string, std::string>> declarations;
+  Declarations declarations;
   std::string character;  ///< the character whose joints the motion has; empty: the recording's
   double origin_ms = 0;   ///< annotation time of frame 0
   nlohmann::ordered_json rig;

@@ -1,14 +1,15 @@
 #include <fmt/format.h>
 
-#include "app/calls/change_calls.h"
+#include "app/server/answers.h"
 #include "app/server/routes.h"
+#include "signweave/calls/change_calls.h"
 
 namespace signweave::server {
 
 using nlohmann::json;
 
-calls::SchemaWriter relayout_fields() {
-  return calls::schema_of_call<calls::RelayoutCall>();
+wire::SchemaWriter relayout_fields() {
+  return wire::schema_of_call<calls::RelayoutCall>();
 }
 
 ApiResponse relayout_database(Call& call) {
@@ -23,7 +24,7 @@ ApiResponse relayout_database(Call& call) {
         served.change([&](Database& database) {
           const std::size_t wanted =
               parameters.recordings.empty() ? database.contents()->recordings.size() : parameters.recordings.size();
-          job.report({{"recordings", wanted}, {"changed", json::array()}, {"faults", json::array()}});
+          job.report(answer_json<json>(RelayoutResult{.recordings = wanted, .changed = {}, .faults = {}}));
           const calls::Listener listener{
               .notice = {},
               .fault = [&](const std::string& line, const Remedies&) { job.add("faults", line); },
@@ -34,7 +35,7 @@ ApiResponse relayout_database(Call& call) {
         });
         return json();  // the result is what was reported
       });
-  return json_answer(json{{"job", id}}, 202);
+  return json_answer(answer_json(JobBegun{id}), 202);
 }
 
 ApiResponse remove_recording(Call& call) {
@@ -44,12 +45,12 @@ ApiResponse remove_recording(Call& call) {
     throw Error(ErrorCode::conflict,
                 fmt::format("job {} is changing '{}' now; try again when it has ended", *job, served.name()));
   }
-  json report;
+  calls::Removed removed;
   served.change([&](Database& database) {
-    report = calls::run(database, parameters);
+    removed = calls::run(database, parameters);
     calls::learn(database, call.listener());
   });
-  return json_answer(report);
+  return json_answer(answer_json(removed));
 }
 
 }  // namespace signweave::server

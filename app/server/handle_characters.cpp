@@ -3,14 +3,13 @@
 #include <charconv>
 #include <filesystem>
 
+#include "app/server/answers.h"
 #include "app/server/routes.h"
 #include "signweave/annotation/document.h"
 #include "signweave/core/text.h"
 #include "signweave/database/import.h"
 
 namespace signweave::server {
-
-using nlohmann::json;
 
 namespace {
 
@@ -56,14 +55,14 @@ std::vector<LinkedFile> media_of(Call& call) {
 }  // namespace
 
 ApiResponse list_characters(Call& call) {
-  json list = json::array();
+  CharactersAnswer answer;
   for (const calls::SharedCharacter& one : call.state.databases.characters.all()) {
-    list.push_back({{"name", one->name},
-                    {"file", one->path.filename().string()},
-                    {"height", one->character.height},
-                    {"face_units", one->character.face_units}});
+    answer.characters.push_back({.name = one->name,
+                                 .file = one->path.filename().string(),
+                                 .height = one->character.height,
+                                 .face_units = one->character.face_units});
   }
-  return json_answer(json{{"characters", std::move(list)}});
+  return json_answer(answer_json<nlohmann::json>(answer));
 }
 
 ApiResponse show_character(Call& call) {
@@ -75,18 +74,18 @@ ApiResponse show_character(Call& call) {
 }
 
 ApiResponse list_media(Call& call) {
-  json list = json::array();
+  MediaAnswer answer;
   const std::string base =
       fmt::format("/api/databases/{}/recordings/{}/media/", percent_encoded(call.names.at("database")),
                   percent_encoded(call.names.at("recording")));
   for (const LinkedFile& linked : media_of(call)) {
-    const json url = served_file(call, linked).empty() ? json() : json(base + std::to_string(list.size()));
-    list.push_back({{"file", linked_file_name(linked.url.empty() ? linked.relative_url : linked.url)},
-                    {"mime", linked.mime_type},
-                    {"origin_ms", linked.time_origin.count()},
-                    {"url", url}});
+    const bool served = !served_file(call, linked).empty();
+    answer.media.push_back({.file = linked_file_name(linked.url.empty() ? linked.relative_url : linked.url),
+                            .mime = linked.mime_type,
+                            .origin_ms = linked.time_origin.count(),
+                            .url = null_unless(served, base + std::to_string(answer.media.size()))});
   }
-  return json_answer(json{{"media", std::move(list)}});
+  return json_answer(answer_json<nlohmann::json>(answer));
 }
 
 ApiResponse show_media(Call& call) {

@@ -1,8 +1,9 @@
-#include "app/calls/preview_call.h"
-#include "app/calls/rig_json.h"
 #include "app/server/frames_answer.h"
 #include "app/server/routes.h"
 #include "app/server/upload_files.h"
+#include "signweave/calls/preview_call.h"
+#include "signweave/calls/rig_answer.h"
+#include "signweave/notation/answer_json.h"
 
 namespace signweave::server {
 namespace {
@@ -14,14 +15,14 @@ std::string text_of(const calls::Preview& preview, const std::string& database, 
                       .declarations = preview.declarations,
                       .character = {},
                       .origin_ms = 1e3 * static_cast<double>(preview.frames.begin) * preview.rate.frame_time().count(),
-                      .rig = calls::json_of_rig(preview.motion.skeleton(), preview.rig),
-                      .report = {{"piece", calls::piece_json(preview)}}});
+                      .rig = answer_json(calls::rig_answer(preview.motion.skeleton(), preview.rig)),
+                      .report = {{"piece", answer_json(preview)}}});
 }
 
 }  // namespace
 
-calls::SchemaWriter preview_fields() {
-  return calls::schema_of_call<calls::PreviewCall>();
+wire::SchemaWriter preview_fields() {
+  return wire::schema_of_call<calls::PreviewCall>();
 }
 
 ApiResponse preview_upload(Call& call) {

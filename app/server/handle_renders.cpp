@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "app/server/answers.h"
 #include "app/server/routes.h"
 #include "signweave/core/text.h"
 
@@ -25,8 +26,8 @@ ApiResponse put_rendered(Call& call) {
   if (call.request.body_file.empty()) throw Error(ErrorCode::bad_input, "the request has no body");
   std::filesystem::rename(call.request.body_file, to, error);
   if (error) throw Error(ErrorCode::io, "the rendered file could not be stored: " + error.message());
-  return json_answer(
-      nlohmann::json{{"file", to.filename().string()}, {"bytes", std::filesystem::file_size(to, error)}});
+  const RenderedFile rendered{.file = to.filename().string(), .bytes = std::filesystem::file_size(to, error)};
+  return json_answer(answer_json<nlohmann::json>(rendered));
 }
 
 }  // namespace signweave::server

@@ -2,12 +2,13 @@
 #include <mutex>
 #include <set>
 
-#include "app/calls/evaluate_call.h"
-#include "app/calls/query_call.h"
-#include "app/calls/segment_call.h"
-#include "app/calls/stats_call.h"
-#include "app/calls/table.h"
+#include "app/server/answers.h"
 #include "app/server/routes.h"
+#include "signweave/calls/evaluate_call.h"
+#include "signweave/calls/query_call.h"
+#include "signweave/calls/segment_call.h"
+#include "signweave/calls/stats_call.h"
+#include "signweave/calls/table.h"
 #include "signweave/formats/eaf/eaf.h"
 
 namespace signweave::server {
@@ -33,17 +34,17 @@ struct Formats<calls::SegmentCall> {
   static std::string help() { return "of the answer: json if not given; eaf is an annotation file for a person"; }
 };
 
-calls::SchemaWriter query_fields() {
-  return calls::schema_of_call<WithFormat<calls::QueryCall>>();
+wire::SchemaWriter query_fields() {
+  return wire::schema_of_call<WithFormat<calls::QueryCall>>();
 }
-calls::SchemaWriter stats_fields() {
-  return calls::schema_of_call<WithFormat<calls::StatsCall>>();
+wire::SchemaWriter stats_fields() {
+  return wire::schema_of_call<WithFormat<calls::StatsCall>>();
 }
-calls::SchemaWriter evaluate_fields() {
-  return calls::schema_of_call<calls::EvaluateCall>();
+wire::SchemaWriter evaluate_fields() {
+  return wire::schema_of_call<calls::EvaluateCall>();
 }
-calls::SchemaWriter segment_fields() {
-  return calls::schema_of_call<WithFormat<calls::SegmentCall>>();
+wire::SchemaWriter segment_fields() {
+  return wire::schema_of_call<WithFormat<calls::SegmentCall>>();
 }
 
 ApiResponse find_segments(Call& call) {
@@ -68,7 +69,7 @@ ApiResponse find_segments(Call& call) {
   }
   if (format == "csv" && !report.plan)
     return file_answer(answer_format("csv"), "answers", calls::format_csv(rows_of(report)));
-  return json_answer(json_of(report));
+  return json_answer(answer_json<nlohmann::json>(answer_of(report)));
 }
 
 ApiResponse count_transitions(Call& call) {
@@ -87,7 +88,7 @@ ApiResponse count_transitions(Call& call) {
     return file_answer(answer_format("svg"), "transitions", calls::plot_of(counted, "transitions.svg"));
   if (format == "csv")
     return file_answer(answer_format("csv"), "statistics", calls::format_csv(csv_of(parameters, counted)));
-  return json_answer(json_of(parameters, counted));
+  return json_answer(answer_json<nlohmann::json>(answer_of(parameters, counted)));
 }
 
 ApiResponse propose_segments(Call& call) {
@@ -100,9 +101,11 @@ ApiResponse propose_segments(Call& call) {
   call.notices = made.proposed.notices;
   if (format == "eaf") {
     return file_answer(answer_format("eaf"), info.name + ".phases",
-                       eaf::write_text(proposals_document(made.proposed, made.length, info.motion_file)));
+                       eaf::write_text(proposals_document(made.proposed, made.length, info.motion_facts.file)));
   }
-  return json_answer(json_of(made, "recording", info.name));
+  calls::ProposalsAnswer answer = answer_of(made);
+  answer.recording = info.name;
+  return json_answer(answer_json(answer));
 }
 
 ApiResponse evaluate_methods(Call& call) {
@@ -120,15 +123,16 @@ ApiResponse evaluate_methods(Call& call) {
                                    .progress = [&](double fraction) { job.advance(fraction); }};
     const calls::Evaluated made = calls::run(served.database(), parameters, listener);
     Bootstrap bootstrap(parameters.seed);
-    nlohmann::json report = json_of(made, parameters, bootstrap);
-    report["plot"] = plot_of(made.tasks, bootstrap);
-    report["declarations"] = declarations;
-    report["notices"] = calls::json_of(notices);
-    return report;
+    EvaluationReply reply{.answer = answer_of(made, parameters, bootstrap),
+                          .plot = {},
+                          .declarations = declarations,
+                          .notices = std::move(notices)};
+    reply.plot = plot_of(made.tasks, bootstrap);
+    return answer_json<nlohmann::json>(reply);
   };
   const std::string id =
       call.state.jobs.start({.name = "evaluate", .changes = false, .alone = true}, served.name(), evaluate);
-  return json_answer(nlohmann::json{{"job", id}}, 202);
+  return json_answer(answer_json(JobBegun{id}), 202);
 }
 
 }  // namespace signweave::server

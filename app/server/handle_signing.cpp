@@ -1,13 +1,14 @@
 #include <fmt/format.h>
 
-#include "app/calls/export_call.h"
-#include "app/calls/rig_json.h"
-#include "app/calls/synthesis_call.h"
+#include "app/server/answers.h"
 #include "app/server/frames_answer.h"
 #include "app/server/routes.h"
+#include "signweave/calls/export_call.h"
+#include "signweave/calls/rig_answer.h"
+#include "signweave/calls/synthesis_call.h"
 #include "signweave/core/text.h"
 #include "signweave/formats/file_format.h"
-#include "signweave/score/score_json.h"
+#include "signweave/notation/score_json.h"
 
 namespace signweave::server {
 
@@ -16,7 +17,7 @@ namespace {
 /// All file formats that are written, and those that only HTTP has.
 std::vector<std::string> synthesis_formats() {
   std::vector<std::string> names;
-  for (const std::string_view ending : writable_extensions()) names.emplace_back(ending.substr(1));
+  for (const std::string_view extension : writable_extensions()) names.emplace_back(extension.substr(1));
   names.emplace_back("frames");
   names.emplace_back("score");
   return names;
@@ -97,8 +98,8 @@ calls::SharedCharacter wanted_character(const Call& call, const std::string& nam
 }
 
 nlohmann::ordered_json rig_json(const Motion& motion, const RigNames& names, const calls::CharacterFile* character) {
-  return calls::json_of_rig(motion.skeleton(),
-                            character != nullptr ? character->character.rig : map_rig(motion, names));
+  return answer_json(
+      calls::rig_answer(motion.skeleton(), character != nullptr ? character->character.rig : map_rig(motion, names)));
 }
 
 ApiResponse deliver(Call& call, Synthesized made, const calls::SynthesisChoices& how, const std::string& title,
@@ -111,10 +112,11 @@ ApiResponse deliver(Call& call, Synthesized made, const calls::SynthesisChoices&
   call.declare(made.result.declarations);
   call.notices.insert(call.notices.end(), made.result.notices.begin(), made.result.notices.end());
   const auto report_json = [&] {
-    nlohmann::json report = calls::report_of(made, how);
-    report["declarations"] = call.declarations;
-    report["notices"] = calls::json_of(call.notices);
-    return report;
+    SynthesisReply reply;
+    reply.answer = calls::report_of(made, how);
+    reply.declarations = call.declarations;
+    reply.notices = call.notices;
+    return answer_json<nlohmann::json>(reply);
   };
   if (format.empty()) return json_answer(report_json());
   const AnswerFormat& file = answer_format(format);
@@ -129,26 +131,27 @@ ApiResponse deliver(Call& call, Synthesized made, const calls::SynthesisChoices&
                                     .rig = rig_json(made.result.motion, calls::signer_of(made).rig, character.get()),
                                     .report = report_json()}));
   }
-  return file_answer(file, "signing",
-                     file_text(file.ending, calls::content_of(made, how, title, character), std::string(file.ending)));
+  return file_answer(
+      file, "signing",
+      file_text(file.extension, calls::content_of(made, how, title, character), std::string(file.extension)));
 }
 
 }  // namespace
 
-calls::SchemaWriter sign_fields() {
-  return calls::schema_of_call<WithFormat<calls::SignCall>>();
+wire::SchemaWriter sign_fields() {
+  return wire::schema_of_call<WithFormat<calls::SignCall>>();
 }
-calls::SchemaWriter score_fields() {
-  return calls::schema_of_call<WithFormat<calls::ScoreCall>>();
+wire::SchemaWriter score_fields() {
+  return wire::schema_of_call<WithFormat<calls::ScoreCall>>();
 }
-calls::SchemaWriter edit_fields() {
-  return calls::schema_of_call<WithFormat<calls::EditCall>>();
+wire::SchemaWriter edit_fields() {
+  return wire::schema_of_call<WithFormat<calls::EditCall>>();
 }
-calls::SchemaWriter motion_fields() {
-  return calls::schema_of_call<WithFormat<calls::ExportCall>>();
+wire::SchemaWriter motion_fields() {
+  return wire::schema_of_call<WithFormat<calls::ExportCall>>();
 }
-calls::SchemaWriter annotation_fields() {
-  return calls::schema_of_call<AnnotationCall>();
+wire::SchemaWriter annotation_fields() {
+  return wire::schema_of_call<AnnotationCall>();
 }
 
 ApiResponse sign_utterance(Call& call) {
@@ -208,14 +211,17 @@ ApiResponse export_motion(Call& call) {
   const AnswerFormat& file = answer_format(format);
   const calls::SharedCharacter character = wanted_character(call, parameters.character);
   const Database& database = call.database().database();
-  calls::Exported made = calls::run(database, parameters, {parameters.recording + std::string(file.ending)});
+  calls::Exported made = calls::run(database, parameters, {parameters.recording + std::string(file.extension)});
   if (character) show_on(made, *call.database().stance(database.contents(), made.info.name), character);
   call.declare(made.info.declarations);
   call.notices.insert(call.notices.end(), made.notices.begin(), made.notices.end());
   if (format == "frames") {
     const double origin = 1e3 * made.info.clock.time_of(static_cast<double>(made.frames.begin)).count();
     nlohmann::json report;  // none for a captured recording
-    if (!made.remade.empty()) report = {{"remade", calls::json_of_remade(made)}};
+    if (!made.regenerated.empty()) {
+      const auto spans = answer_json<nlohmann::json>(calls::regenerated_of(made));
+      report = {{"regenerated", spans}, {"remade", spans}};  // the latter is the former name
+    }
     return file_answer(file, made.info.name,
                        frames_text(*made.motion, {.database = call.database().name(),
                                                   .recording = made.info.name,
@@ -225,7 +231,7 @@ ApiResponse export_motion(Call& call) {
                                                   .rig = rig_json(*made.motion, made.info.rig, character.get()),
                                                   .report = std::move(report)}));
   }
-  return file_answer(file, made.info.name, file_text(file.ending, made.content(), made.info.name));
+  return file_answer(file, made.info.name, file_text(file.extension, made.content(), made.info.name));
 }
 
 ApiResponse export_annotation(Call& call) {

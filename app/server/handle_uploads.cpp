@@ -1,7 +1,8 @@
-#include "app/calls/import_call.h"
-#include "app/calls/inspect_call.h"
+#include "app/server/answers.h"
 #include "app/server/routes.h"
 #include "app/server/upload_files.h"
+#include "signweave/calls/import_call.h"
+#include "signweave/calls/inspect_call.h"
 
 namespace signweave::server {
 namespace {
@@ -28,9 +29,8 @@ void fields(Visit& visit, JobCall& call) {
 class JobReport {
  public:
   JobReport(const Pairing& pairing, std::string folder, JobContext& job) : folder_(std::move(folder)), job_(job) {
-    job_.report({{"recordings", json::array()},
-                 {"notices", without_folder(calls::json_of(pairing.notices), folder_)},
-                 {"faults", json::array()}});
+    const ImportResult result{.recordings = {}, .notices = pairing.notices, .faults = {}};
+    job_.report(without_folder(answer_json<json>(result), folder_));
   }
   void add(json recording) { job_.add("recordings", without_folder(std::move(recording), folder_)); }
   calls::Listener listener() {
@@ -54,10 +54,8 @@ bool import_files(Database& database, const Pairing& pairing, const ImportOption
   bool good = true;
   calls::run(database, pairing, options, listener, [&](const calls::Imported& imported) {
     if (imported.error) good = false;
-    json one = calls::json_of(imported);
     const std::optional<RecordingInfo> info = database.info(imported.name);
-    one["declarations"] = !info ? json::object() : calls::declarations_json(info->declarations);
-    report.add(std::move(one));
+    report.add(answer_json<json>(ImportedReply{imported, info ? info->declarations : Declarations()}));
   });
   calls::learn(database, listener);
   return good;
@@ -92,26 +90,26 @@ HeldUpload hold_upload(Call& call, calls::ImportCall parameters) {
 
 }  // namespace
 
-calls::SchemaWriter import_fields() {
-  return calls::schema_of_call<calls::ImportCall>();
+wire::SchemaWriter import_fields() {
+  return wire::schema_of_call<calls::ImportCall>();
 }
 
-calls::SchemaWriter job_fields() {
-  return calls::schema_of_call<JobCall>();
+wire::SchemaWriter job_fields() {
+  return wire::schema_of_call<JobCall>();
 }
 
 ApiResponse open_upload(Call& call) {
   const std::string id = call.state.uploads.open(call.database().name());
-  return json_answer(call.state.uploads.describe(call.database().name(), id), 201);
+  return json_answer(answer_json<json>(call.state.uploads.describe(call.database().name(), id)), 201);
 }
 
 ApiResponse show_upload(Call& call) {
-  return json_answer(call.state.uploads.describe(call.database().name(), call.names.at("upload")));
+  return json_answer(answer_json<json>(call.state.uploads.describe(call.database().name(), call.names.at("upload"))));
 }
 
 ApiResponse discard_upload(Call& call) {
   call.state.uploads.discard(call.database().name(), call.names.at("upload"));
-  return json_answer(json{{"discarded", call.names.at("upload")}});
+  return json_answer(answer_json(Discarded{call.names.at("upload")}));
 }
 
 void require_upload(const Call& call) {
@@ -121,12 +119,13 @@ void require_upload(const Call& call) {
 ApiResponse remove_file(Call& call) {
   Uploads& uploads = call.state.uploads;
   uploads.take_away(call.database().name(), call.names.at("upload"), call.names.at("file"));
-  return json_answer(uploads.describe(call.database().name(), call.names.at("upload")));
+  return json_answer(answer_json<json>(uploads.describe(call.database().name(), call.names.at("upload"))));
 }
 
 ApiResponse put_file(Call& call) {
-  return json_answer(call.state.uploads.put(call.database().name(), call.names.at("upload"), call.names.at("file"),
-                                            call.request.body_file, call.request.body));
+  return json_answer(
+      answer_json<json>(call.state.uploads.put(call.database().name(), call.names.at("upload"), call.names.at("file"),
+                                               call.request.body_file, call.request.body)));
 }
 
 ApiResponse import_upload(Call& call) {
@@ -151,7 +150,7 @@ ApiResponse import_upload(Call& call) {
           uploads.release(upload, !some && good);
           return json();  // the result is what was reported
         });
-    return json_answer(json{{"job", id}}, 202);
+    return json_answer(answer_json(JobBegun{id}), 202);
   } catch (...) {
     uploads.release(upload, false);
     throw;
@@ -170,7 +169,7 @@ ApiResponse inspect_upload(Call& call) {
           try {
             JobReport report(held.pairing, held.folder.string() + "/", job);
             calls::inspect(served.database(), held.pairing, held.options, held.folder.string() + ".inspected",
-                           report.listener(), [&](const nlohmann::ordered_json& one) { report.add(one); });
+                           report.listener(), [&](const calls::Inspected& one) { report.add(answer_json<json>(one)); });
             uploads.release(upload, false);
             return json();  // the result is what was reported
           } catch (...) {
@@ -178,7 +177,7 @@ ApiResponse inspect_upload(Call& call) {
             throw;
           }
         });
-    return json_answer(json{{"job", id}}, 202);
+    return json_answer(answer_json(JobBegun{id}), 202);
   } catch (...) {
     uploads.release(upload, false);
     throw;
@@ -186,17 +185,17 @@ ApiResponse inspect_upload(Call& call) {
 }
 
 ApiResponse list_jobs(Call& call) {
-  return json_answer(call.state.jobs.describe_all());
+  return json_answer(answer_json<json>(call.state.jobs.describe_all()));
 }
 
 ApiResponse show_job(Call& call) {
   const auto parameters = read_parameters<JobCall>(call);
-  return json_answer(call.state.jobs.describe(parameters.job, parameters.from));
+  return json_answer(answer_json<json>(call.state.jobs.describe(parameters.job, parameters.from)));
 }
 
 ApiResponse cancel_job(Call& call) {
   call.state.jobs.cancel(call.names.at("job"));
-  return json_answer(call.state.jobs.describe(call.names.at("job")), 202);
+  return json_answer(answer_json<json>(call.state.jobs.describe(call.names.at("job"))), 202);
 }
 
 }  // namespace signweave::server

@@ -1,10 +1,11 @@
-#include "app/calls/xpath_call.h"
 #include "app/server/routes.h"
+#include "signweave/calls/xpath_call.h"
+#include "signweave/notation/answer_json.h"
 
 namespace signweave::server {
 
-calls::SchemaWriter xpath_fields() {
-  return calls::schema_of_call<calls::XPathCall>();
+wire::SchemaWriter xpath_fields() {
+  return wire::schema_of_call<calls::XPathCall>();
 }
 
 ApiResponse find_nodes(Call& call) {
@@ -27,7 +28,7 @@ ApiResponse find_nodes(Call& call) {
     last = answer.recording;
     if (const RecordingInfo* info = contents->find(last)) call.declare(info->declarations);
   }
-  return json_answer(calls::json_of(answers));
+  return json_answer(answer_json<nlohmann::json>(calls::node_answers(answers)));
 }
 
 }  // namespace signweave::server

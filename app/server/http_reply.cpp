@@ -17,7 +17,7 @@ constexpr std::string_view kPage = R"(<!doctype html>
 <meta name="viewport" content="width=device-width">
 <title>signweave</title>
 <h1>signweave</h1>
-<p>This is a signweave server: a database of captured signing, found by meaning and movement, signed anew.</p>
+<p>This is a signweave server: a database of captured signing: search it by meaning and movement, make new signing from it.</p>
 <p>Its calls are described by <a href="/api/openapi.json">/api/openapi.json</a>, its streams of frames by docs/stream.md;
 what is served: <a href="/api/databases">/api/databases</a>. No folder of pages is served (<code>--files FOLDER</code>).</p>
 </html>

@@ -77,7 +77,7 @@ void Jobs::begin() {
 Jobs::~Jobs() {
   {
     const std::lock_guard lock(mutex_);
-    ending_ = true;
+    stopping_ = true;
     for (const std::shared_ptr<Job>& job : jobs_) job->cancelled = true;
   }
   changed_.notify_all();
@@ -118,35 +118,37 @@ std::shared_ptr<Jobs::Job> Jobs::at(const std::string& id) const {
   throw Error(ErrorCode::not_found, fmt::format("no job '{}'; only the last {} are kept", printable(id), kMostKept));
 }
 
-json Jobs::json_of(const Job& job) {
-  constexpr const char* kNames[] = {"waiting", "running", "done", "failed", "cancelled"};
-  json one = {{"job", job.id},
-              {"kind", job.kind.name},
-              {"database", job.database},
-              {"state", kNames[static_cast<std::size_t>(job.state)]},
-              {"fraction", job.fraction.load(std::memory_order_relaxed)}};
-  if (job.error) one["error"] = *job.error;
-  return one;
+JobAnswer Jobs::answer_of(const Job& job) {
+  constexpr std::string_view kNames[] = {"waiting", "running", "done", "failed", "cancelled"};
+  JobAnswer answer{.job = job.id,
+                   .kind = job.kind.name,
+                   .database = job.database,
+                   .state = kNames[static_cast<std::size_t>(job.state)],
+                   .fraction = job.fraction.load(std::memory_order_relaxed),
+                   .result = {},
+                   .error = {}};
+  if (job.error) answer.error.emplace().json = *job.error;
+  return answer;
 }
 
-json Jobs::describe(const std::string& id, std::size_t from) const {
+JobAnswer Jobs::describe(const std::string& id, std::size_t from) const {
   Result result;
-  json one;
+  JobAnswer answer;
   {
     const std::lock_guard lock(mutex_);
     const std::shared_ptr<Job> job = at(id);
-    one = json_of(*job);
+    answer = answer_of(*job);
     result = job->result;
   }
-  if (result.reported) one["result"] = result.whole(from);
-  return one;
+  if (result.reported) answer.result.emplace().json = result.whole(from);
+  return answer;
 }
 
-json Jobs::describe_all() const {
+JobsAnswer Jobs::describe_all() const {
   const std::lock_guard lock(mutex_);
-  json list = json::array();
-  for (const std::shared_ptr<Job>& job : jobs_) list.push_back(json_of(*job));
-  return {{"jobs", std::move(list)}};
+  JobsAnswer answer;
+  for (const std::shared_ptr<Job>& job : jobs_) answer.jobs.push_back(answer_of(*job));
+  return answer;
 }
 
 void Jobs::cancel(const std::string& id) {
@@ -178,9 +180,9 @@ void Jobs::run() {
     {
       std::unique_lock lock(mutex_);
       changed_.wait_for(lock, 30s, [&] {
-        return ending_ || std::ranges::any_of(jobs_, [](const auto& one) { return one->state == State::waiting; });
+        return stopping_ || std::ranges::any_of(jobs_, [](const auto& one) { return one->state == State::waiting; });
       });
-      if (ending_) return;
+      if (stopping_) return;
       const auto at = std::ranges::find_if(jobs_, [](const auto& one) { return one->state == State::waiting; });
       if (at != jobs_.end()) {
         job = *at;

@@ -13,6 +13,7 @@
 #include <thread>
 #include <vector>
 
+#include "app/server/answers.h"
 #include "signweave/core/error.h"
 
 namespace signweave::server {
@@ -58,11 +59,10 @@ class Jobs {
   /// Returns the number of a new job. Throws Error{conflict} if kMostWaiting jobs have not ended yet, or one of the
   /// same kind that has to be alone.
   std::string start(JobKind kind, std::string database, Work work);
-  /// As JSON: job, kind, database, state (waiting, running, done, failed, cancelled), fraction, result, error. The
-  /// result's list `recordings` is returned from index `from` on. Throws Error{not_found}.
-  nlohmann::json describe(const std::string& id, std::size_t from = 0) const;
+  /// The state of a job. The result's list `recordings` is returned from index `from` on. Throws Error{not_found}.
+  JobAnswer describe(const std::string& id, std::size_t from = 0) const;
   /// All jobs, without their results, which may be long.
-  nlohmann::json describe_all() const;
+  JobsAnswer describe_all() const;
   /// Cancels a job as soon as possible; does nothing if it has ended. Throws Error{not_found}.
   void cancel(const std::string& id);
   /// The number of a waiting or running job that changes this database.
@@ -79,7 +79,7 @@ class Jobs {
 
   void run();
   void finish(Job& job, State state, nlohmann::json result, const std::optional<Error>& error);
-  static nlohmann::json json_of(const Job& job);
+  static JobAnswer answer_of(const Job& job);
   std::shared_ptr<Job> at(const std::string& id) const;
 
   std::function<std::string(std::string)> redact_;
@@ -88,7 +88,7 @@ class Jobs {
   std::condition_variable changed_;
   std::deque<std::shared_ptr<Job>> jobs_;  ///< in the order of their numbers
   std::uint64_t next_ = 1;
-  bool ending_ = false;
+  bool stopping_ = false;
   std::thread thread_;
 };
 

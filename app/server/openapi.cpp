@@ -47,7 +47,7 @@ struct Fields {
 Fields fields_of(const Route& route) {
   Fields found;
   if (route.parameters == nullptr) return found;
-  const calls::SchemaWriter writer = route.parameters();
+  const wire::SchemaWriter writer = route.parameters();
   const std::vector<std::string> in_path = names_in(route.path);
   for (const auto& [name, schema] : writer.properties.items()) {
     if (!has(in_path, name)) found.properties[name] = schema;
@@ -160,19 +160,20 @@ Json openapi_document() {
     paths[std::string("/").append(route.path)][method] = std::move(operation);
   }
   Json no_token = Json::object();
-  Json document = {{"openapi", "3.1.0"},
-                   {"info",
-                    {{"title", "signweave"},
-                     {"version", std::string(version())},
-                     {"description",
-                      "A database of captured signing: find by meaning, sign anew. docs/http.md tells it by task. "
-                      "Frames as they are "
-                      "signed come over the WebSocket at /api/stream, which docs/stream.md describes."},
-                     {"license", {{"name", "see LICENSE and NOTICE"}}}}},
-                   {"servers", Json::array({{{"url", "/api"}}})},
-                   {"security", Json::array({no_token, {{"token", Json::array()}}})},
-                   {"paths", std::move(paths)},
-                   {"components", components()}};
+  Json document = {
+      {"openapi", "3.1.0"},
+      {"info",
+       {{"title", "signweave"},
+        {"version", std::string(version())},
+        {"description",
+         "A database of captured signing: search by meaning, make new signing. docs/http.md describes it by task. "
+         "Frames as they are "
+         "signed come over the WebSocket at /api/stream, which docs/stream.md describes."},
+        {"license", {{"name", "see LICENSE and NOTICE"}}}}},
+      {"servers", Json::array({{{"url", "/api"}}})},
+      {"security", Json::array({no_token, {{"token", Json::array()}}})},
+      {"paths", std::move(paths)},
+      {"components", components()}};
   return document;
 }
 

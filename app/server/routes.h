@@ -7,11 +7,12 @@
 #include <string_view>
 #include <vector>
 
-#include "app/calls/listener.h"
-#include "app/calls/read.h"
-#include "app/calls/schema.h"
 #include "app/server/answer.h"
 #include "app/server/api_state.h"
+#include "app/wire/call_schema.h"
+#include "app/wire/read.h"
+#include "signweave/annotation/declarations.h"
+#include "signweave/calls/listener.h"
 
 namespace signweave::server {
 
@@ -22,15 +23,15 @@ struct Call {
   ApiState& state;
   const ApiRequest& request;
   const Route& route;
-  calls::Texts names;                                      ///< in the path: {"database": "demo"}
-  nlohmann::json declarations = nlohmann::json::object();  ///< of the recordings that the answer is built from
-  std::vector<Notice> notices;                             ///< problems that stopped nothing
+  wire::Texts names;            ///< in the path: {"database": "demo"}
+  Declarations declarations;    ///< of the recordings that the answer is built from
+  std::vector<Notice> notices;  ///< problems that stopped nothing
 
   ServedDatabase& database() const { return state.databases.at(names.at("database")); }
   /// Collects notices and faults; its progress callback ends the call when the time limit is reached.
   calls::Listener listener();
   /// Adds what a recording declares.
-  void declare(const std::vector<std::pair<std::string, std::string>>& of);
+  void declare(const Declarations& of);
   void declare_all(const Contents& contents);
 };
 
@@ -46,7 +47,7 @@ struct Route {
   std::string_view summary;  ///< one line
   ApiResponse (*handle)(Call&);
   Source source = Source::none;
-  calls::SchemaWriter (*parameters)() = nullptr;
+  wire::SchemaWriter (*parameters)() = nullptr;
   std::string_view answer = {};  ///< its schema in the document's components; empty: a file
   int status = 200;
   bool may_be_file = false;                ///< in addition to the JSON answer
@@ -62,15 +63,16 @@ std::span<const Route> routes();
 /// The segments of a route's path: "databases", "{database}", ….
 std::vector<std::string_view> segments_of(std::string_view path);
 /// The values of the names in the path if the route matches, otherwise nullopt.
-std::optional<calls::Texts> match(const Route& route, const std::vector<std::string>& path);
+std::optional<wire::Texts> match(const Route& route, const std::vector<std::string>& path);
 
-/// Reads the call's parameters from where the route puts them. Throws Error{bad_input}, StatusError 415.
+/// Reads the call's parameters from where the route puts them, and notes former names. Throws Error{bad_input},
+/// StatusError 415.
 template <class Parameters>
-Parameters read_parameters(const Call& call) {
+Parameters read_parameters(Call& call) {
   if (call.route.source == Source::query) {
-    return calls::read_call<Parameters>(call.request.query, call.names);
+    return wire::read_call<Parameters>(call.request.query, call.names, &call.notices);
   }
-  return calls::read_call<Parameters>(calls::parse_body(call.request.body), call.names);
+  return wire::read_call<Parameters>(wire::parse_body(call.request.body), call.names, &call.notices);
 }
 
 /// A call's parameters, and the requested format of its answer: empty for the JSON report.
@@ -99,6 +101,9 @@ ApiResponse list_vocabulary(Call& call);
 ApiResponse list_labels(Call& call);
 ApiResponse check_database(Call& call);
 ApiResponse list_formats(Call& call);
+ApiResponse list_methods(Call& call);
+ApiResponse list_phases(Call& call);
+ApiResponse list_units(Call& call);
 ApiResponse show_openapi(Call& call);
 ApiResponse find_segments(Call& call);  // handle_search.cpp
 ApiResponse find_nodes(Call& call);     // handle_xpath.cpp
@@ -116,6 +121,8 @@ ApiResponse render_score(Call& call);
 ApiResponse edit_recording(Call& call);
 ApiResponse export_motion(Call& call);
 ApiResponse export_annotation(Call& call);
+ApiResponse annotate_recording(Call& call);  // handle_texts.cpp
+ApiResponse read_text_of_utterance(Call& call);
 ApiResponse relayout_database(Call& call);  // handle_changes.cpp
 ApiResponse remove_recording(Call& call);
 ApiResponse open_upload(Call& call);  // handle_uploads.cpp
@@ -132,20 +139,37 @@ ApiResponse cancel_job(Call& call);
 ApiResponse preview_upload(Call& call);  // handle_previews.cpp
 
 /// The fields of each call that has any, for the table and the document.
-calls::SchemaWriter label_fields();
-calls::SchemaWriter query_fields();
-calls::SchemaWriter xpath_fields();
-calls::SchemaWriter stats_fields();
-calls::SchemaWriter segment_fields();
-calls::SchemaWriter evaluate_fields();
-calls::SchemaWriter score_fields();
-calls::SchemaWriter sign_fields();
-calls::SchemaWriter edit_fields();
-calls::SchemaWriter motion_fields();
-calls::SchemaWriter annotation_fields();
-calls::SchemaWriter relayout_fields();
-calls::SchemaWriter import_fields();
-calls::SchemaWriter preview_fields();
-calls::SchemaWriter job_fields();
+wire::SchemaWriter label_fields();
+wire::SchemaWriter query_fields();
+wire::SchemaWriter xpath_fields();
+wire::SchemaWriter stats_fields();
+wire::SchemaWriter segment_fields();
+wire::SchemaWriter evaluate_fields();
+wire::SchemaWriter score_fields();
+wire::SchemaWriter sign_fields();
+wire::SchemaWriter edit_fields();
+wire::SchemaWriter motion_fields();
+wire::SchemaWriter annotation_fields();
+wire::SchemaWriter relayout_fields();
+wire::SchemaWriter import_fields();
+wire::SchemaWriter preview_fields();
+wire::SchemaWriter job_fields();
+wire::SchemaWriter label_fields();
+wire::SchemaWriter query_fields();
+wire::SchemaWriter xpath_fields();
+wire::SchemaWriter stats_fields();
+wire::SchemaWriter segment_fields();
+wire::SchemaWriter evaluate_fields();
+wire::SchemaWriter score_fields();
+wire::SchemaWriter sign_fields();
+wire::SchemaWriter edit_fields();
+wire::SchemaWriter motion_fields();
+wire::SchemaWriter annotation_fields();
+wire::SchemaWriter annotate_fields();
+wire::SchemaWriter utterance_fields();
+wire::SchemaWriter relayout_fields();
+wire::SchemaWriter import_fields();
+wire::SchemaWriter preview_fields();
+wire::SchemaWriter job_fields();
 
 }  // namespace signweave::server

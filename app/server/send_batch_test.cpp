@@ -63,7 +63,7 @@ class SendBatchTest : public ::testing::TestWithParam<SendBatch::Mode> {
   SendBatch batch{by_one_call};
 };
 
-INSTANTIATE_TEST_SUITE_P(BothWays, SendBatchTest,
+INSTANTIATE_TEST_SUITE_P(BothDirections, SendBatchTest,
                          ::testing::Values(SendBatch::Mode::one_call, SendBatch::Mode::call_each),
                          [](const auto& info) {
                            return info.param == SendBatch::Mode::one_call ? "OneCall" : "CallEach";

@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-#include "app/calls/characters.h"
+#include "signweave/calls/characters.h"
 #include "signweave/database/database.h"
 #include "signweave/live/player.h"
 

@@ -140,8 +140,8 @@ std::optional<ByteRange> range_of(std::string_view header, std::uint64_t size) {
 }
 
 std::string_view content_type_of(std::string_view name) noexcept {
-  for (const auto& [ending, type] : kTypes) {
-    if (name.ends_with(ending)) return type;
+  for (const auto& [extension, type] : kTypes) {
+    if (name.ends_with(extension)) return type;
   }
   return "application/octet-stream";
 }

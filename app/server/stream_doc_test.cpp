@@ -53,7 +53,7 @@ std::string said(const Json& example) {
   if (type == "score") return score_text(id, std::nullopt, example["frame"]);
   if (type == "error") {
     for (int code = 0; code <= static_cast<int>(ErrorCode::cancelled); ++code) {
-      if (calls::name_of(static_cast<ErrorCode>(code)) == example["code"]) {
+      if (name_of(static_cast<ErrorCode>(code)) == example["code"]) {
         return error_text(static_cast<ErrorCode>(code), example["message"].get<std::string>(), id);
       }
     }

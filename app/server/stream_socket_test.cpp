@@ -47,7 +47,7 @@ class StreamSocketTest : public ::testing::TestWithParam<SendBatch::Mode> {
   std::shared_ptr<StreamSocket> socket;
 };
 
-INSTANTIATE_TEST_SUITE_P(BothWays, StreamSocketTest,
+INSTANTIATE_TEST_SUITE_P(BothDirections, StreamSocketTest,
                          ::testing::Values(SendBatch::Mode::one_call, SendBatch::Mode::call_each),
                          [](const auto& info) {
                            return info.param == SendBatch::Mode::one_call ? "OneCall" : "CallEach";

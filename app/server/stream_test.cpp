@@ -6,7 +6,7 @@
 #include <thread>
 
 #include "app/server/test_server.h"
-#include "signweave/score/score_json.h"
+#include "signweave/notation/score_json.h"
 
 namespace signweave::server {
 namespace {

@@ -6,7 +6,7 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 
-#include "signweave/score/score_json.h"
+#include "signweave/notation/score_json.h"
 
 namespace signweave::server {
 namespace {
@@ -109,14 +109,14 @@ std::string score_text(std::string_view id, const std::optional<ShownScore>& liv
 }
 
 std::string error_text(ErrorCode code, std::string_view message, std::string_view id) {
-  OrderedJson object = {{"type", "error"}, {"code", calls::name_of(code)}, {"message", message}};
+  OrderedJson object = {{"type", "error"}, {"code", name_of(code)}, {"message", message}};
   add_id(object, id);
   return line_of(object);
 }
 
 std::string error_text(const Error& error, std::string_view id) {
-  OrderedJson object = {{"type", "error"}, {"code", calls::name_of(error.code())}, {"message", error.what()}};
-  const nlohmann::json fault = calls::fault_json(error, calls::name_of(error.code()), error.what());
+  OrderedJson object = {{"type", "error"}, {"code", name_of(error.code())}, {"message", error.what()}};
+  const nlohmann::json fault = wire::fault_json(error, name_of(error.code()), error.what());
   for (const char* field : {"missing", "suggestion", "remedies"}) {
     if (const auto at = fault.find(field); at != fault.end()) object[field] = *at;
   }

@@ -6,8 +6,8 @@
 #include <string>
 #include <string_view>
 
-#include "app/calls/fault_json.h"
 #include "app/server/control_message.h"
+#include "app/wire/fault.h"
 #include "signweave/live/player.h"
 
 namespace signweave::server {

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <type_traits>
 
-#include "app/calls/field.h"
+#include "signweave/calls/field.h"
 
 namespace signweave::server {
 

@@ -109,13 +109,13 @@ void Uploads::require_readable(const std::string& name) {
   constexpr std::string_view kOthers[] = {"", ".csv", ".tsv", ".txt", ".rig", ".bin", ".xml"};
   const FileFormat* format = file_format(name);
   if (format != nullptr && format->reads) return;
-  const std::string ending = fold_case(fs::path(name).extension().string());
-  if (std::ranges::find(kOthers, ending) != std::end(kOthers)) return;
+  const std::string extension = fold_case(fs::path(name).extension().string());
+  if (std::ranges::find(kOthers, extension) != std::end(kOthers)) return;
   throw Error(
       ErrorCode::unsupported,
       fmt::format("{}: no import reads files ending in '{}'; send motion {}, annotation {}, faces {}, tables and "
                   "mappings (.csv, .txt, .rig)",
-                  printable(name), printable(ending), readable_extensions(FileKind::motion),
+                  printable(name), printable(extension), readable_extensions(FileKind::motion),
                   readable_extensions(FileKind::annotation), readable_extensions(FileKind::face)));
 }
 
@@ -129,7 +129,7 @@ void Uploads::require_open(const std::string& database, const std::string& id, c
 std::string Uploads::open(const std::string& database) {
   sweep();
   const std::lock_guard lock(mutex_);
-  if (uploads_.size() >= most_) give_way();
+  if (uploads_.size() >= most_) make_room();
   if (uploads_.size() >= most_) {
     throw StatusError(503, "busy", fmt::format("{} uploads are open already; finish one, or wait", uploads_.size()));
   }
@@ -142,8 +142,8 @@ std::string Uploads::open(const std::string& database) {
   return id;
 }
 
-nlohmann::json Uploads::put(const std::string& database, const std::string& id, const std::string& name,
-                            const fs::path& from, std::string_view body) {
+UploadedFile Uploads::put(const std::string& database, const std::string& id, const std::string& name,
+                          const fs::path& from, std::string_view body) {
   require_plain(name);
   require_readable(name);
   const std::lock_guard lock(mutex_);
@@ -159,7 +159,7 @@ nlohmann::json Uploads::put(const std::string& database, const std::string& id, 
   keep_file(from, body, upload.folder / name);
   upload.files[name] = bytes;
   upload.touched = std::chrono::steady_clock::now();
-  return {{"file", name}, {"bytes", bytes}, {"upload_bytes", all}};
+  return {.file = name, .bytes = bytes, .upload_bytes = all};
 }
 
 void Uploads::take_away(const std::string& database, const std::string& id, const std::string& name) {
@@ -180,12 +180,12 @@ void Uploads::take_away(const std::string& database, const std::string& id, cons
   upload.touched = std::chrono::steady_clock::now();
 }
 
-nlohmann::json Uploads::describe(const std::string& database, const std::string& id) const {
+UploadAnswer Uploads::describe(const std::string& database, const std::string& id) const {
   const std::lock_guard lock(mutex_);
   const Upload& upload = at(database, id);
-  nlohmann::json files = nlohmann::json::array();
-  for (const auto& [name, bytes] : upload.files) files.push_back({{"file", name}, {"bytes", bytes}});
-  return {{"upload", id}, {"files", std::move(files)}};
+  UploadAnswer answer{.upload = id, .files = {}};
+  for (const auto& [name, bytes] : upload.files) answer.files.push_back({name, bytes});
+  return answer;
 }
 
 void Uploads::discard(const std::string& database, const std::string& id) {
@@ -225,7 +225,7 @@ void Uploads::remove(std::map<std::string, Upload>::iterator upload) {
   uploads_.erase(upload);
 }
 
-void Uploads::give_way() {
+void Uploads::make_room() {
   auto oldest = uploads_.end();
   for (auto one = uploads_.begin(); one != uploads_.end(); ++one) {
     if (!one->second.held && (oldest == uploads_.end() || one->second.touched < oldest->second.touched)) oldest = one;

@@ -5,10 +5,10 @@
 #include <filesystem>
 #include <map>
 #include <mutex>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
 
+#include "app/server/answers.h"
 #include "signweave/core/time.h"
 
 namespace signweave::server {
@@ -29,13 +29,13 @@ class Uploads {
   /// Adds a file: `from` is moved if given, else `body` is written. Replaces a file of the same name. Throws
   /// Error{not_found}, Error{bad_input} if the name is not a plain file name, StatusError 413, Error{conflict} while
   /// the upload is being imported.
-  nlohmann::json put(const std::string& database, const std::string& id, const std::string& name,
-                     const std::filesystem::path& from, std::string_view body);
+  UploadedFile put(const std::string& database, const std::string& id, const std::string& name,
+                   const std::filesystem::path& from, std::string_view body);
   /// Removes one file of the upload. Throws Error{not_found}, Error{conflict} while the upload is being imported.
   void take_away(const std::string& database, const std::string& id, const std::string& name);
   /// Throws what `put` would throw, except for sizes: for a check before a long file is sent.
   void require_open(const std::string& database, const std::string& id, const std::string& name) const;
-  nlohmann::json describe(const std::string& database, const std::string& id) const;
+  UploadAnswer describe(const std::string& database, const std::string& id) const;
   /// Removes the upload. Throws Error{not_found}, Error{conflict} while it is being imported.
   void discard(const std::string& database, const std::string& id);
   /// The folder, for an import: the upload cannot be changed until `release`. Throws Error{not_found}, Error{conflict}.
@@ -63,7 +63,7 @@ class Uploads {
     bool held = false;
   };
 
-  void give_way();
+  void make_room();
   Upload& at(const std::string& database, const std::string& id);
   const Upload& at(const std::string& database, const std::string& id) const;
   const Upload& at_open(const std::string& database, const std::string& id) const;

@@ -222,7 +222,7 @@ class Collector {
   void finish(Sign& sign) {
     if (sign.phases.empty()) {
       sign.inferred = true;
-      sign.phases.push_back({PhaseKind::stroke, sign.span, {}, {}});
+      sign.phases.push_back({.kind = PhaseKind::stroke, .span = sign.span});
       return;
     }
     std::stable_sort(sign.phases.begin(), sign.phases.end(), [](const Phase& a, const Phase& b) {

@@ -65,7 +65,7 @@ std::vector<MissingGloss> missing_of(const Utterance& utterance, const Segments&
       continue;
     }
     if (!there[i]) {
-      MissingGloss one{i, 1, utterance.places[i].gloss.gloss, {}, false};
+      MissingGloss one{.place = i, .gloss = utterance.places[i].gloss.gloss};
       const auto found = folded.find(loose_form(one.gloss));
       one.folds = found != folded.end();
       one.matches = one.folds ? found->second : near_matches(one.gloss, glosses);

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "signweave/core/text.h"
@@ -28,9 +29,11 @@ std::optional<Notice> notice_without_durations(const DurationFit& durations) {
                 {{"duration", ""}}};
 }
 
-void add_declarations(const RecordingInfo& recording, DeclarationSet& declarations) {
-  for (const auto& [name, value] : recording.declarations) {
-    if (name != "signweave:synthesis") declarations.emplace(name, value);
+void add_declarations(const RecordingInfo& recording, Declarations& declarations) {
+  for (const auto& one : recording.declarations) {
+    if (one.first == "signweave:synthesis") continue;
+    const auto at = std::ranges::lower_bound(declarations, one);
+    if (at == declarations.end() || *at != one) declarations.insert(at, one);
   }
 }
 

@@ -2,11 +2,10 @@
 
 #include <cstddef>
 #include <optional>
-#include <set>
 #include <string>
 #include <string_view>
-#include <utility>
 
+#include "signweave/annotation/declarations.h"
 #include "signweave/annotation/sign.h"
 #include "signweave/core/error.h"
 #include "signweave/database/database.h"
@@ -22,9 +21,8 @@ std::optional<Notice> notice_without_captured(std::string_view method, std::size
 /// Returns a notice if the database does not determine the duration of transitions.
 std::optional<Notice> notice_without_durations(const DurationFit& durations);
 
-/// Names and values declared by the documents of recordings, such as that shapes are placeholders.
-using DeclarationSet = std::set<std::pair<std::string, std::string>>;
-/// Adds the declarations that must accompany everything signed from a recording.
-void add_declarations(const RecordingInfo& recording, DeclarationSet& declarations);
+/// Adds the declarations that must accompany everything signed from a recording. `declarations` is sorted, each is in
+/// it once, and it stays so.
+void add_declarations(const RecordingInfo& recording, Declarations& declarations);
 
 }  // namespace signweave

@@ -15,7 +15,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 void require_unchanged(const RecordingInfo& info, const SourceRef& source) {
-  if (source.fingerprint == 0 || source.fingerprint == info.motion_fingerprint) return;
+  if (source.fingerprint == 0 || source.fingerprint == info.motion_facts.fingerprint) return;
   throw Error(ErrorCode::conflict,
               fmt::format("recording '{}' changed since this score was made; sign its utterance again", info.name));
 }
@@ -33,13 +33,12 @@ const TransitionMethod* method_with_needs(const std::vector<MotionClip>& clips, 
   return found;
 }
 
-std::vector<std::pair<std::string, std::string>> declarations_of(const Contents& contents,
-                                                                 const std::vector<MotionClip>& clips) {
-  DeclarationSet declarations;
+Declarations declarations_of(const Contents& contents, const std::vector<MotionClip>& clips) {
+  Declarations declarations;
   for (const MotionClip& clip : clips) {
     if (!clip.recording.empty()) add_declarations(contents.at(clip.recording), declarations);
   }
-  return {declarations.begin(), declarations.end()};
+  return declarations;
 }
 
 SignerRig signer_rig_of(const Snapshot& snapshot, const RecordingInfo& recording) {
@@ -105,7 +104,7 @@ Synthesis OpenScore::synthesize(Synthesis used) {
   return out;
 }
 
-std::vector<std::pair<std::string, std::string>> OpenScore::declarations() const {
+Declarations OpenScore::declarations() const {
   return declarations_of(snapshot_.contents(), clips_);
 }
 

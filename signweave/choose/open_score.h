@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "signweave/annotation/declarations.h"
 #include "signweave/choose/captured_spans.h"
 #include "signweave/core/time.h"
 #include "signweave/database/database.h"
@@ -17,8 +18,7 @@ namespace signweave {
 const TransitionMethod* method_with_needs(const std::vector<MotionClip>& clips, const TransitionMethod& of_all);
 
 /// The declarations of the documents of the clips' recordings.
-std::vector<std::pair<std::string, std::string>> declarations_of(const Contents& contents,
-                                                                 const std::vector<MotionClip>& clips);
+Declarations declarations_of(const Contents& contents, const std::vector<MotionClip>& clips);
 
 /// The rig of a recording's signer. The motion is measured once as long as the database does not change.
 SignerRig signer_rig_of(const Snapshot& snapshot, const RecordingInfo& recording);
@@ -58,7 +58,7 @@ class OpenScore {
   const std::shared_ptr<const Contents>& contents() const noexcept { return snapshot_.shared_contents(); }
   const std::vector<Notice>& notices() const noexcept { return notices_; }
   /// As Synthesis::declarations.
-  std::vector<std::pair<std::string, std::string>> declarations() const;
+  Declarations declarations() const;
   /// Seconds spent reading so far.
   Seconds reading() const noexcept { return reading_; }
 

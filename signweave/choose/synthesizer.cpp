@@ -96,7 +96,7 @@ Synthesized run(const Snapshot& snapshot, std::vector<Choice> choices, std::stri
                      .signs = std::move(candidate.signs),
                      .pause_before = made.choices[chosen.place].pause_before,
                      .junction = named == options.junctions.end() ? JunctionChoice{} : named->second,
-                     .fingerprint = info.motion_fingerprint,
+                     .fingerprint = info.motion_facts.fingerprint,
                      .place = chosen.place,
                      .sign_places = std::move(chosen.sign_places),
                      .noise = snapshot.joins(candidate.recording)->noise});

@@ -2,6 +2,7 @@
 
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -18,6 +19,29 @@ enum class ErrorCode {
   io,              ///< the operating system reported an error (disk full, no permission)
   cancelled,       ///< stopped on request or by a deadline
 };
+
+/// "not_found": how programs are told the kind of an error, by the command line, HTTP and streams.
+constexpr std::string_view name_of(ErrorCode code) noexcept {
+  switch (code) {
+    case ErrorCode::bad_input:
+      return "bad_input";
+    case ErrorCode::not_found:
+      return "not_found";
+    case ErrorCode::already_exists:
+      return "already_exists";
+    case ErrorCode::conflict:
+      return "conflict";
+    case ErrorCode::corrupt:
+      return "corrupt";
+    case ErrorCode::unsupported:
+      return "unsupported";
+    case ErrorCode::io:
+      return "io";
+    case ErrorCode::cancelled:
+      return "cancelled";
+  }
+  return "io";
+}
 
 /// A parameter of the call that would fix what an `Error` or a `Notice` reports. The library names it as the call's
 /// fields do; each front end spells it its own way: `--root-order rotation_first`, a property of JSON, a button.

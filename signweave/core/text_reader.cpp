@@ -219,7 +219,7 @@ double TextReader::number(std::string_view what) {
     fail(fmt::format("expected {}, found '{}'{}", what, printable(word_), comma ? "; write a decimal point" : ""));
   }
   if (!std::isfinite(value)) {
-    fail(fmt::format("expected {}, found '{}', which is no finite number", what, printable(word_)));
+    fail(fmt::format("expected {}, found '{}', which is not a finite number", what, printable(word_)));
   }
   return value;
 }

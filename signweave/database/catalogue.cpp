@@ -107,7 +107,7 @@ RigNames decode_rig(ByteReader& in) {
   return names;
 }
 
-void encode(const std::vector<std::pair<std::string, std::string>>& declarations, ByteWriter& out) {
+void encode(const Declarations& declarations, ByteWriter& out) {
   out.number(static_cast<std::uint32_t>(declarations.size()));
   for (const auto& [name, value] : declarations) {
     out.text(name);
@@ -115,8 +115,8 @@ void encode(const std::vector<std::pair<std::string, std::string>>& declarations
   }
 }
 
-std::vector<std::pair<std::string, std::string>> decode_declarations(ByteReader& in) {
-  std::vector<std::pair<std::string, std::string>> declarations;
+Declarations decode_declarations(ByteReader& in) {
+  Declarations declarations;
   for (std::size_t n = in.count(8); n > 0; --n) {
     std::string name = in.text();
     declarations.emplace_back(std::move(name), in.text());
@@ -203,6 +203,7 @@ void write_head(kv::WriteTransaction& transaction, const Head& head) {
 RecordingInfo read_recording(const kv::ReadTransaction& snapshot, std::uint32_t slot) {
   auto [version, in] = open_record(snapshot, slot_key(slot), fmt::format("catalogue entry {}", slot));
   RecordingInfo info;
+  MotionFacts& facts = info.motion_facts;
   info.name = in.text();
   info.signer = in.text();
   info.clock = decode_clock(in);
@@ -211,12 +212,12 @@ RecordingInfo read_recording(const kv::ReadTransaction& snapshot, std::uint32_t 
   info.tiers_given = (given & 2) != 0;
   info.signer_given = (given & 4) != 0;
   if (in.number<std::uint8_t>() != 0) info.motion = motion_db::decode(in);
-  if (in.number<std::uint8_t>() != 0) info.layout = bvh::decode_layout(in);
+  if (in.number<std::uint8_t>() != 0) facts.layout = bvh::decode_layout(in);
   info.document = in.number<std::uint64_t>();
   info.tiers = decode_tier_names(in);
-  info.motion_file = in.text();
+  facts.file = in.text();
   info.annotation_file = in.text();
-  info.motion_fingerprint = in.number<std::uint64_t>();
+  facts.fingerprint = in.number<std::uint64_t>();
   info.annotation_fingerprint = in.number<std::uint64_t>();
   for (std::size_t n = in.count(8); n > 0; --n) {
     Notice notice;
@@ -225,19 +226,19 @@ RecordingInfo read_recording(const kv::ReadTransaction& snapshot, std::uint32_t 
     info.notices.push_back(std::move(notice));
   }
   info.declarations = decode_declarations(in);
-  info.face_file = in.text();
-  info.face_fingerprint = in.number<std::uint64_t>();
+  facts.face_file = in.text();
+  facts.face_fingerprint = in.number<std::uint64_t>();
   if (version >= 3) {
     info.rig = decode_rig(in);
     info.defects = decode_defects(in);
   }
-  if (info.motion && info.face_file.empty()) info.own_tracks = static_cast<std::uint32_t>(info.motion->tracks.size());
+  if (info.motion && facts.face_file.empty()) facts.own_tracks = static_cast<std::uint32_t>(info.motion->tracks.size());
   if (in.left() > 0) {  // recordings made before there were other formats than BVH have none of it
-    info.face_offset = Seconds(in.number<double>());
-    info.reading = in.text();
-    info.own_tracks = in.number<std::uint32_t>();
-    info.motion_declarations = decode_declarations(in);
-    if (info.own_tracks > (info.motion ? info.motion->tracks.size() : 0)) in.fail("more tracks than the motion has");
+    facts.face_offset = Seconds(in.number<double>());
+    facts.reading = in.text();
+    facts.own_tracks = in.number<std::uint32_t>();
+    facts.declarations = decode_declarations(in);
+    if (facts.own_tracks > (info.motion ? info.motion->tracks.size() : 0)) in.fail("more tracks than the motion has");
   }
   if (in.left() > 0) {  // notices stored before they had remedies have none
     for (Notice& notice : info.notices) {
@@ -252,6 +253,7 @@ RecordingInfo read_recording(const kv::ReadTransaction& snapshot, std::uint32_t 
 }
 
 void write_recording(kv::WriteTransaction& transaction, std::uint32_t slot, const RecordingInfo& info) {
+  const MotionFacts& facts = info.motion_facts;
   ByteWriter out = new_record();
   out.text(info.name);
   out.text(info.signer);
@@ -260,13 +262,13 @@ void write_recording(kv::WriteTransaction& transaction, std::uint32_t slot, cons
       static_cast<std::uint8_t>((info.clock_given ? 1 : 0) | (info.tiers_given ? 2 : 0) | (info.signer_given ? 4 : 0)));
   out.number(static_cast<std::uint8_t>(info.motion ? 1 : 0));
   if (info.motion) motion_db::encode(*info.motion, out);
-  out.number(static_cast<std::uint8_t>(info.layout ? 1 : 0));
-  if (info.layout) bvh::encode(*info.layout, out);
+  out.number(static_cast<std::uint8_t>(facts.layout ? 1 : 0));
+  if (facts.layout) bvh::encode(*facts.layout, out);
   out.number(info.document);
   encode(info.tiers, out);
-  out.text(info.motion_file);
+  out.text(facts.file);
   out.text(info.annotation_file);
-  out.number(info.motion_fingerprint);
+  out.number(facts.fingerprint);
   out.number(info.annotation_fingerprint);
   out.number(static_cast<std::uint32_t>(info.notices.size()));
   for (const Notice& notice : info.notices) {
@@ -274,14 +276,14 @@ void write_recording(kv::WriteTransaction& transaction, std::uint32_t slot, cons
     out.text(notice.text);
   }
   encode(info.declarations, out);
-  out.text(info.face_file);
-  out.number(info.face_fingerprint);
+  out.text(facts.face_file);
+  out.number(facts.face_fingerprint);
   encode(info.rig, out);
   encode(info.defects, out);
-  out.number(info.face_offset.count());
-  out.text(info.reading);
-  out.number(info.own_tracks);
-  encode(info.motion_declarations, out);
+  out.number(facts.face_offset.count());
+  out.text(facts.reading);
+  out.number(facts.own_tracks);
+  encode(facts.declarations, out);
   for (const Notice& notice : info.notices) {
     out.number(static_cast<std::uint32_t>(notice.remedies.size()));
     for (const Remedy& remedy : notice.remedies) {

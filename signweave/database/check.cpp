@@ -52,7 +52,7 @@ void check_document(const kv::ReadTransaction& snapshot, const RecordingInfo& in
 
 /// What was learned is what the corpus teaches; where recordings are damaged nothing is compared.
 void check_learned(const Database& database, const kv::ReadTransaction& snapshot, CheckListener& listener) {
-  const char* mend = "signing learns it anew; import any file again to store it";
+  const char* mend = "signing learns it again; import any file again to store it";
   try {
     const std::optional<semantic_db::Learned> stored = semantic_db::read_learned(snapshot);
     if (!stored || stored->changes != catalogue::read_head(snapshot).changes) return;
@@ -68,7 +68,7 @@ void check_learned(const Database& database, const kv::ReadTransaction& snapshot
 /// The segment tables say what the recordings' own segments do.
 void check_tables(const std::shared_ptr<const kv::ReadTransaction>& snapshot, CheckListener& listener) {
   const auto fault = [&](std::string_view what) {
-    listener.fault(fmt::format("segment tables: {}; the next import or removal makes them anew", what));
+    listener.fault(fmt::format("segment tables: {}; the next import or removal rebuilds them", what));
   };
   try {
     const std::optional<Segments> stored = semantic_db::read_tables(snapshot);

@@ -10,21 +10,20 @@
 namespace signweave {
 
 struct CheckResult {
-  std::uint32_t recordings = 0;     ///< that the catalogue counts
-  std::vector<std::string> faults;  ///< one line each, naming recording, joints and frames; empty where all is well
+  std::uint32_t recordings = 0;     ///< according to the catalogue
+  std::vector<std::string> faults;  ///< one line each, with recording, joints and frames; empty: none
 };
 
 /// Verifies every stored byte of an open database.
 CheckResult check(const Database& database, const Database::Progress& progress = {});
 
-/// The same in a child process, so that damage to the engine's own pages, which may kill whoever reads them, is a fault
-/// that is reported and not the end of this program. What lies behind such damage is looked at all the same, by another
-/// child. Forks: call it where no other thread holds a lock that the child would need. Throws as opening the database
-/// does.
+/// The same in a child process, so that damage to the engine's own pages, which may crash the process that reads them,
+/// is reported as a fault and does not end this program. Another child checks what lies behind such damage. Forks: no
+/// other thread may hold a lock that the child needs. Throws as opening the database does.
 CheckResult check_in_child(const std::filesystem::path& folder, const Database::Progress& progress = {});
 
-/// What takes how much space (Database::usage), told by a child process for the same reason. Throws Error{corrupt}
-/// where that died of it.
+/// Returns Database::usage, determined in a child process for the same reason. Throws Error{corrupt} if the child
+/// crashed.
 std::vector<Usage> usage_in_child(const std::filesystem::path& folder);
 
 }  // namespace signweave

@@ -78,8 +78,8 @@ using Task = std::function<void(const Database& database, Tell& tell)>;
   ::_exit(0);  // without destructors: what damaged pages left in memory must not be touched again
 }
 
-/// What one child told before it ended.
-struct Told {
+/// What one child reported before it ended.
+struct Reported {
   bool ended_well = false;
   std::uint32_t recordings = 0;
   std::optional<std::uint32_t> slot;  ///< whose turn it was at last
@@ -90,7 +90,7 @@ struct Told {
 };
 
 /// Reads messages until the pipe ends; false where the child fell silent.
-bool listen(int pipe, Told& told, const Database::Progress& progress) {
+bool listen(int pipe, Reported& reported, const Database::Progress& progress) {
   Bytes bytes;
   for (;;) {
     pollfd ready{.fd = pipe, .events = POLLIN, .revents = 0};
@@ -115,12 +115,12 @@ bool listen(int pipe, Told& told, const Database::Progress& progress) {
       bytes.erase(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(kHead + length));
       switch (kind) {
         case Message::begin:
-          told.recordings = number;
+          reported.recordings = number;
           break;
         case Message::slot:
-          told.slot = number;
-          told.name = text;
-          if (progress) progress(static_cast<double>(number) / told.recordings);
+          reported.slot = number;
+          reported.name = text;
+          if (progress) progress(static_cast<double>(number) / reported.recordings);
           break;
         case Message::alive:
           break;
@@ -128,23 +128,23 @@ bool listen(int pipe, Told& told, const Database::Progress& progress) {
           ByteReader one(bytes_of(text), "usage");
           std::string what = one.text();
           const auto entries = one.number<std::uint64_t>();
-          told.usage.push_back({std::move(what), entries, one.number<std::uint64_t>()});
+          reported.usage.push_back({std::move(what), entries, one.number<std::uint64_t>()});
           break;
         }
         case Message::fault:
-          told.faults.push_back(text);
+          reported.faults.push_back(text);
           break;
         case Message::refused:
           throw Error(static_cast<ErrorCode>(number), text);
         case Message::done:
-          told.ended_well = true;
+          reported.ended_well = true;
           break;
       }
     }
   }
 }
 
-Told ask_child(const std::filesystem::path& folder, const Task& task, const Database::Progress& progress) {
+Reported ask_child(const std::filesystem::path& folder, const Task& task, const Database::Progress& progress) {
   int ends[2];
   if (::pipe2(ends, O_CLOEXEC) != 0) {
     throw Error(ErrorCode::io, fmt::format("{}: no pipe to a checking process: {}; close some files and try again",
@@ -177,19 +177,19 @@ Told ask_child(const std::filesystem::path& folder, const Task& task, const Data
       wait();
     }
   } reaped{.child = child, .pipe = ends[0]};
-  Told told;
-  const bool spoke = listen(ends[0], told, progress);
+  Reported reported;
+  const bool spoke = listen(ends[0], reported, progress);
   if (!spoke) ::kill(child, SIGKILL);
   reaped.wait();
-  if (told.ended_well) return told;
+  if (reported.ended_well) return reported;
   if (!spoke) {
-    told.death = "does not come to an end";
+    reported.death = "does not come to an end";
   } else if (WIFSIGNALED(reaped.status)) {
-    told.death = fmt::format("ends the program ({})", ::strsignal(WTERMSIG(reaped.status)));
+    reported.death = fmt::format("ends the program ({})", ::strsignal(WTERMSIG(reaped.status)));
   } else {
-    told.death = fmt::format("ends the program (status {})", WEXITSTATUS(reaped.status));
+    reported.death = fmt::format("ends the program (status {})", WEXITSTATUS(reaped.status));
   }
-  return told;
+  return reported;
 }
 
 }  // namespace
@@ -198,15 +198,16 @@ CheckResult check_in_child(const std::filesystem::path& folder, const Database::
   CheckResult result;
   for (std::uint32_t first = 0;;) {
     const Task check_the_rest = [first](const Database& database, Tell& tell) { check_slots(database, first, tell); };
-    Told told = ask_child(folder, check_the_rest, progress);
-    result.recordings = std::max(result.recordings, told.recordings);
-    result.faults.insert(result.faults.end(), told.faults.begin(), told.faults.end());
-    if (told.ended_well) return result;
-    const std::string where = told.slot ? told.name : folder.string();
-    result.faults.push_back(fmt::format(
-        "{}: reading it {}: the engine's own pages are damaged; restore the database from a copy", where, told.death));
-    if (!told.slot) return result;
-    first = *told.slot + 1;
+    Reported reported = ask_child(folder, check_the_rest, progress);
+    result.recordings = std::max(result.recordings, reported.recordings);
+    result.faults.insert(result.faults.end(), reported.faults.begin(), reported.faults.end());
+    if (reported.ended_well) return result;
+    const std::string where = reported.slot ? reported.name : folder.string();
+    result.faults.push_back(
+        fmt::format("{}: reading it {}: the engine's own pages are damaged; restore the database from a copy", where,
+                    reported.death));
+    if (!reported.slot) return result;
+    first = *reported.slot + 1;
   }
 }
 
@@ -220,13 +221,13 @@ std::vector<Usage> usage_in_child(const std::filesystem::path& folder) {
       tell.send(Message::usage, 0, text_of(out.bytes()));
     }
   };
-  Told told = ask_child(folder, measure, {});
-  if (told.ended_well) return told.usage;
+  Reported reported = ask_child(folder, measure, {});
+  if (reported.ended_well) return reported.usage;
   throw Error(
       ErrorCode::corrupt,
       fmt::format("{}: looking at all of it {}: the engine's own pages are damaged; 'signweave check' tells which "
                   "recordings are, restore it from a copy",
-                  folder.string(), told.death));
+                  folder.string(), reported.death));
 }
 
 }  // namespace signweave

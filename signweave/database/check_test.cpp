@@ -60,7 +60,7 @@ TEST_P(CheckTest, WhatCannotBeOpenedIsTheSameErrorAsWithoutAChild) {
   }
 }
 
-TEST_P(CheckTest, AChildTellsTheFaultsThatTheProgramItselfWouldTell) {
+TEST_P(CheckTest, AChildReportsTheFaultsThatTheProgramItselfWouldReport) {
   {
     const auto store = kv::open(path(), kv::Access::read_write);
     std::vector<Bytes> packets;

@@ -265,8 +265,8 @@ TEST_P(DatabaseTest, KilledAtAnyMomentEachRecordingIsAsItWasOrAsItWasToBecome) {
     ::usleep(static_cast<unsigned>(1'700 * round));
     ::kill(child, SIGKILL);
     ::waitpid(child, nullptr, 0);
-    int told = 0;
-    while (::read(ends[0], &told, sizeof told) == sizeof told) last = told;
+    int sent = 0;
+    while (::read(ends[0], &sent, sizeof sent) == sizeof sent) last = sent;
     ::close(ends[0]);
 
     Database database(path(), kv::Access::read_write);

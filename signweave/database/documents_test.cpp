@@ -66,7 +66,7 @@ TEST_P(DocumentStorageTest, ADatabaseStoresAsItWasMadeTo) {
   }
 }
 
-TEST_P(DocumentStorageTest, RelayoutGoesBothWaysAndKeepsEveryByte) {
+TEST_P(DocumentStorageTest, RelayoutGoesInBothDirectionsAndKeepsEveryByte) {
   Database database(make(DocumentStorage::document), kv::Access::read_write);
   database.put(small_recording("r", 1, {"A", "B"}));
   database.put(small_recording("s", 2, {"C"}));

@@ -18,8 +18,9 @@ std::optional<Seconds> given_face_offset(const fs::path& path, std::optional<Sec
     const face_csv::Face face = face_csv::read(path);
     const std::optional<Seconds> timecode = face_csv::seconds_of(*motion_timecode, face.rate);
     if (!timecode) {
-      throw Error(ErrorCode::bad_input, fmt::format("face_timecode: '{}' is no timecode HOURS:MINUTES:SECONDS:FRAMES",
-                                                    printable(*motion_timecode)));
+      throw Error(ErrorCode::bad_input,
+                  fmt::format("face_timecode: '{}' is not a timecode HOURS:MINUTES:SECONDS:FRAMES",
+                              printable(*motion_timecode)));
     }
     offset = face_csv::start_of(face, *timecode);
   }

@@ -46,7 +46,7 @@ class FacePart : public testing::Test {
   TestFolder folder_;
 };
 
-TEST_F(FacePart, BeginsWithTheMotionUnlessToldOtherwise) {
+TEST_F(FacePart, BeginsWithTheMotionUnlessGivenOtherwise) {
   import({});
   EXPECT_NEAR(jaw(50), 0.5f, 1e-6f);
 }
@@ -63,7 +63,7 @@ TEST_F(FacePart, LiesWhereAnOffsetOrATimecodeSays) {
   EXPECT_NEAR(jaw(100), 0.5f, 1e-6f);
 }
 
-TEST_F(FacePart, StaysWhereItWasPutUntilItIsToldAnew) {
+TEST_F(FacePart, StaysWhereItWasPutUntilItIsGivenAgain) {
   import({.face_offset = Seconds(0.5)});
   EXPECT_EQ(import({}).outcome, ImportOutcome::unchanged);
   EXPECT_EQ(import({.face_offset = Seconds(0.5)}).outcome, ImportOutcome::unchanged);
@@ -78,7 +78,7 @@ TEST_F(FacePart, OutsideOfTheMotionIsRefused) {
   EXPECT_THAT(fault({.face_offset = Seconds(2.5)}), HasSubstr("the face, from 2.500 to 3.500 s of the motion, lies "
                                                               "outside of its 2.000 s"));
   EXPECT_THAT(fault({.face_timecode = "09:00:00:00"}), HasSubstr("lies outside"));
-  EXPECT_THAT(fault({.face_timecode = "nine"}), HasSubstr("face_timecode: 'nine' is no timecode"));
+  EXPECT_THAT(fault({.face_timecode = "nine"}), HasSubstr("face_timecode: 'nine' is not a timecode"));
 }
 
 TEST_F(FacePart, ItsTracksStandInsteadOfTheMotionsOwnOfTheSameName) {

@@ -129,10 +129,10 @@ TEST_P(DatabaseFaults, AFlippedBitInAnyRecordIsAnErrorOrAnIntactAnswer) {
         change->commit();
       }
       int intact = 0;
-      bool told = false;
+      bool reported = false;
       try {
         const Database database(path(), kv::Access::read_only);
-        told = !check(database).faults.empty();
+        reported = !check(database).faults.empty();
         for (int i = 0; i < 3; ++i) {
           const std::string name = fmt::format("r{}", i);
           try {
@@ -143,11 +143,11 @@ TEST_P(DatabaseFaults, AFlippedBitInAnyRecordIsAnErrorOrAnIntactAnswer) {
           }
         }
         EXPECT_GE(intact, 2) << "the others stay readable";
-      } catch (const Error&) {  // the head: nothing can be told without it
-        told = true;
+      } catch (const Error&) {  // the head: nothing can be reported without it
+        reported = true;
         EXPECT_TRUE(key.size() == 1 && key[0] == std::byte{'C'});
       }
-      EXPECT_TRUE(told) << "check sees it";
+      EXPECT_TRUE(reported) << "check sees it";
     }
     const auto change = store->write();
     change->put(key, sound);

@@ -140,7 +140,7 @@ TEST(Features, OfABodyWithoutHandsSayWhy) {
   expect_current(*scene.database, "a");
 }
 
-TEST(Features, OfSignsBesideTheMotionSayWhy) {
+TEST(Features, OfSignsOutsideTheMotionSayWhy) {
   Scene scene;
   Recording recording = recording_of("a", 1, {"A"});
   recording.clock.origin = Seconds(60);
@@ -225,7 +225,7 @@ TEST(Features, OfAnEarlierVersionAreMeasuredWhenAskedForAndStoredOnDemand) {
   }
 }
 
-TEST(Features, ThatAreDamagedAreToldAndMeasuredAnew) {
+TEST(Features, ThatAreDamagedAreReportedAndMeasuredAgain) {
   Scene scene;
   scene.database->put(recording_of("a", 1, {"A"}));
   const std::uint64_t document = scene.database->info("a")->document;

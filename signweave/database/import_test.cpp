@@ -77,7 +77,7 @@ TEST_F(ImportTest, TheClockComesFromTheLinkedFileOrFromOptions) {
   EXPECT_THROW(import_all({.sync = {{0, Seconds(1)}, {0, Seconds(2)}}}), Error);
 }
 
-TEST_F(ImportTest, WhatAnEarlierImportWasToldHolds) {
+TEST_F(ImportTest, TheOptionsOfAnEarlierImportHold) {
   write_motion("a.bvh", 1);
   write_annotation("a.eaf", {"A"});
   import_all({.offset = Seconds(0.7)});
@@ -159,7 +159,7 @@ TEST_F(ImportTest, ALinkedFileIsKnownByItsWholeName) {
   EXPECT_NEAR(Database(folder_ / "db", kv::Access::read_only).info("sign")->clock.origin.count(), -0.2, 1e-9);
 }
 
-TEST_F(ImportTest, AStoredRecordingKeepsItsNameWhenAnotherOfItsStemComesBeside) {
+TEST_F(ImportTest, AStoredRecordingKeepsItsNameWhenAnotherOfItsStemIsAdded) {
   write_motion("a.bvh", 1);
   import_all();
   write_motion("sub/a.bvh", 2);
@@ -280,7 +280,7 @@ TEST_F(ImportTest, AnotherFaceLeavesTheMotionAsItWasRead) {
   EXPECT_THAT(import_all({.replace_motion = true}), ElementsAre(ImportOutcome::motion_replaced));
   const Database database(folder_ / "db", kv::Access::read_only);
   EXPECT_TRUE(same_poses(database.read("a"), before));
-  EXPECT_TRUE(database.info("a")->layout->mirrored);
+  EXPECT_TRUE(database.info("a")->motion_facts.layout->mirrored);
   ASSERT_EQ(database.read("a").tracks().size(), 1u);
   EXPECT_EQ(database.read("a").tracks()[0].values[9], 0.25f);
 }
@@ -295,7 +295,7 @@ TEST_F(ImportTest, AFaceIsTheMotionsTracks) {
     const Motion motion = database.read("a");
     ASSERT_EQ(motion.tracks().size(), 1u);
     EXPECT_EQ(motion.tracks()[0], (ScalarTrack{"jawOpen", std::vector<float>(200, 0.5f)}));
-    EXPECT_EQ(database.info("a")->face_file, "a.face.csv");
+    EXPECT_EQ(database.info("a")->motion_facts.face_file, "a.face.csv");
     EXPECT_THAT(database.info("a")->motion->tracks, ElementsAre("jawOpen"));
   }
   EXPECT_THAT(import_all(), ElementsAre(ImportOutcome::unchanged));
@@ -317,7 +317,7 @@ TEST_F(ImportTest, AFaceComesToAMotionAsItWasRead) {
   const Database database(folder_ / "db", kv::Access::read_only);
   EXPECT_TRUE(same_poses(database.read("a"), before));
   EXPECT_EQ(database.read("a").tracks().size(), 1u);
-  EXPECT_TRUE(database.info("a")->layout->mirrored);
+  EXPECT_TRUE(database.info("a")->motion_facts.layout->mirrored);
 }
 
 TEST_F(ImportTest, AFaceThatChangedIsTakenOnlyWhenAsked) {
@@ -341,7 +341,7 @@ TEST_F(ImportTest, AFaceThatChangedIsTakenOnlyWhenAsked) {
   EXPECT_TRUE(Database(folder_ / "db", kv::Access::read_only).read("a").tracks().empty());
 }
 
-TEST_F(ImportTest, AFaceThatIsShorterOrLongerThanItsMotionIsTold) {
+TEST_F(ImportTest, AFaceThatIsShorterOrLongerThanItsMotionIsReported) {
   write_motion("a.bvh", 1);
   write_text("a.face.csv", face_text("0.5", 60));
   write_motion("b.bvh", 2);

@@ -125,9 +125,9 @@ class Learner {
         if ((pair.from->end.known & pair.to->begin.known & hand) == 0) continue;
         double sum = 0;
         for (std::size_t k = JoinPoint::kPlace + 3 * side; k < JoinPoint::kPlace + 3 * side + 3; ++k) {
-          const double way =
+          const double distance =
               static_cast<double>(pair.to->begin.values[k]) - static_cast<double>(pair.from->end.values[k]);
-          sum += way * way;
+          sum += distance * distance;
         }
         speeds.push_back(static_cast<float>(std::sqrt(sum) / seconds));
       }

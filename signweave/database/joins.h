@@ -12,35 +12,35 @@ namespace signweave {
 
 class Snapshot;
 
-/// What is known of one sign's joins and of its strokes, from the features of its phases.
+/// The joins and the strokes of one sign, from the features of its phases.
 struct SignJoin {
   RowId row = kNoRow;        ///< of the sign, in Contents::segments
   JoinPoint begin;           ///< at the first stroke's first frame
   JoinPoint end;             ///< at the last stroke's last frame
-  float stroke_seconds = 0;  ///< from the first stroke's begin to the last one's end; 0: it has no stroke
-  float path = 0;            ///< metres, of both hands over the same
+  float stroke_seconds = 0;  ///< from the begin of the first stroke to the end of the last; 0: no stroke
+  float path = 0;            ///< metres, of both hands in the same span
 };
 
-/// The same of every sign of a recording.
+/// The joins of every sign of a recording.
 struct RecordingJoins {
-  std::string why_not;                        ///< empty, or why nothing is known
+  std::string why_not;                        ///< why nothing is known; empty: it is
   std::vector<SignJoin> signs;                ///< ascending by row
-  std::shared_ptr<const CaptureNoise> noise;  ///< of its motion; null: not known
+  std::shared_ptr<const CaptureNoise> noise;  ///< of its motion; null: unknown
 
-  /// Of one sign, or null where there is none of this row.
+  /// Returns those of one sign, or null if there is none of this row.
   const SignJoin* find(RowId row) const noexcept;
 };
 
-/// The sign row of the same tier that goes on to this one: the nearest before it, less than kRest away. kNoRow where
-/// there is none.
+/// Returns the sign row of the same tier that continues to this one: the nearest before it, less than kRest away;
+/// kNoRow if there is none.
 RowId neighbour_before(const Segments& segments, RowId sign) noexcept;
 
-/// The one that goes on from this one, likewise.
+/// Returns the sign row that this one continues to, likewise.
 RowId neighbour_after(const Segments& segments, RowId sign) noexcept;
 
-/// What the corpus teaches of joins, from 256 recordings and 1,024 pairs of neighbours at most, evenly from all: those
-/// that were recorded one after the other are to be told from others. A recorded pair is judged as if it were not known
-/// to be one.
+/// Learns weights of joins that distinguish pairs recorded one after the other from other pairs: from at most 256
+/// recordings and 1,024 neighbouring pairs, evenly spread over the corpus. A recorded pair is evaluated as if it were
+/// not known to be one.
 JoinWeights learn_joins(const Snapshot& snapshot);
 
 }  // namespace signweave

@@ -9,19 +9,19 @@ namespace signweave {
 
 class Snapshot;
 
-/// The transitions of a corpus whose signs have annotated phases, with what the hands had to do in them: at most 400,
-/// of 24 recordings, evenly from all. A recording whose features are damaged is left out.
+/// Returns transitions between signs with annotated phases, and the task of the hands in them: at most 400, from 24
+/// recordings evenly spread over the corpus. Recordings with damaged features are left out.
 std::vector<TimedTransition> timed_transitions(const Snapshot& snapshot);
 
-/// What captured movements teach of transitions: of 24 recordings, a minute of each, and 600 movements at most, evenly
-/// from all; compared by leaving out signers where several are known, else recordings. A recording whose motion is
-/// damaged is left out.
+/// Learns transitions from captured movements: one minute of each of 24 recordings and at most 600 movements, evenly
+/// spread over the corpus; cross-validated over signers if several are known, else over recordings. Recordings with
+/// damaged motion are left out.
 ResidualModel learn_movements(const Snapshot& snapshot);
 
-/// What a corpus teaches as it is now: see learn_joins, timed_transitions and learn_movements. `changes` is left at 0.
+/// Learns from the corpus in its current state: see learn_joins, timed_transitions and learn_movements. `changes` is 0.
 semantic_db::Learned learn_from(const Snapshot& snapshot);
 
-/// True where two say the same, give or take what another compiler rounds otherwise; `changes` is not compared.
+/// True if both are equal up to rounding differences between compilers; `changes` is not compared.
 bool nearly_same(const semantic_db::Learned& a, const semantic_db::Learned& b) noexcept;
 
 }  // namespace signweave

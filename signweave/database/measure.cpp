@@ -18,6 +18,17 @@ RecordingFeatures nothing(const SegmentChunk& segments, std::string why_not) {
   return features;
 }
 
+/// True if the features of this version are stored and sound, or there are no phases to measure.
+bool has_features(const kv::ReadTransaction& snapshot, const RecordingInfo& info) {
+  if (info.document == 0) return true;
+  try {
+    return semantic_db::read_features(snapshot, info.document, info.name).has_value();
+  } catch (const Error& error) {
+    if (error.code() != ErrorCode::corrupt) throw;
+    return false;
+  }
+}
+
 Motion read_motion(const kv::ReadTransaction& snapshot, const RecordingInfo& info) {
   const motion_db::StoredMotion& stored = *info.motion;
   return motion_db::read(snapshot, stored, motion_db::read_skeleton(snapshot, stored), {0, stored.frames});
@@ -70,16 +81,16 @@ RecordingFeatures Database::features(std::string_view name) const {
   return measure_stored(*snapshot, info, semantic_db::read_segments(*snapshot, info.document, info.name));
 }
 
+bool Database::is_measured(std::string_view name) const {
+  const std::unique_ptr<kv::ReadTransaction> snapshot = store_->read();
+  return has_features(*snapshot, recording_in(*snapshot, name));
+}
+
 bool Database::measure(std::string_view name) {
   require_writable();
   const std::unique_ptr<kv::WriteTransaction> transaction = store_->write();
   const RecordingInfo info = recording_in(*transaction, name);
-  if (info.document == 0) return false;
-  try {
-    if (semantic_db::read_features(*transaction, info.document, info.name)) return false;
-  } catch (const Error& error) {
-    if (error.code() != ErrorCode::corrupt) throw;
-  }
+  if (has_features(*transaction, info)) return false;
   const SegmentChunk segments = semantic_db::read_segments(*transaction, info.document, info.name);
   semantic_db::put_features(*transaction, info.document, measure_stored(*transaction, info, segments));
   semantic_db::put_trace(*transaction, info.document, trace_stored(*transaction, info));

@@ -7,15 +7,15 @@
 #include "signweave/kv/kv_store.h"
 #include "signweave/semantic_db/segment_table.h"
 
-/// Inside this module only: what is measured of a recording.
+/// Internal to `database`: what is measured of a recording.
 namespace signweave {
 
-/// What is measured of a recording as it is stored; where a half is missing or damaged, only why nothing was measured.
+/// Measures a recording as it is stored; if a half is missing or damaged, returns only why nothing was measured.
 RecordingFeatures measure_stored(const kv::ReadTransaction& snapshot, const RecordingInfo& info,
                                  const SegmentChunk& segments);
 
-/// What is wrong with the stored features of a recording with motion and document; empty where a sample of them,
-/// measured again, says the same, or there are none of this version.
+/// Returns what is wrong with the stored features of a recording with motion and document; empty if a sample of them
+/// measures the same again, or none of this version are stored.
 std::string fault_of_features(const kv::ReadTransaction& snapshot, const RecordingInfo& info,
                               const SegmentChunk& segments);
 

@@ -71,16 +71,15 @@ std::vector<MovementRow> rows_of(const SegmentTable::RecordingRef& part) {
 
 }  // namespace
 
-std::shared_ptr<MovementCache::Recording> MovementCache::find(std::uint32_t recording) const {
+std::shared_ptr<MovementCache::Entry> MovementCache::find(std::uint32_t recording) const {
   const std::lock_guard guard(mutex_);
   const auto at = recordings_.find(recording);
   return at == recordings_.end() ? nullptr : at->second;
 }
 
-std::shared_ptr<MovementCache::Recording> MovementCache::add(std::uint32_t recording,
-                                                             const std::shared_ptr<Recording>& entry) {
+std::shared_ptr<MovementCache::Entry> MovementCache::add(std::uint32_t recording, const std::shared_ptr<Entry>& entry) {
   const std::lock_guard guard(mutex_);
-  make_room(sizeof(Recording));
+  make_room(sizeof(Entry));
   return recordings_.try_emplace(recording, entry).first->second;
 }
 
@@ -141,14 +140,14 @@ class StoredMovement : public Movement {
   void pause() const override { watch_.check(); }
 
   ColumnValues column(Column column, std::uint32_t recording) const override {
-    MovementCache::Recording& entry = at(recording);
+    MovementCache::Entry& entry = at(recording);
     find_once(entry, entry.measured, [&] { measure(recording, entry); });
     return {entry.columns[place_of(column)], entry_};
   }
   float shoulder_width(std::uint32_t recording) const override { return hands(recording)->shoulder_width; }
   FrameClock clock(std::uint32_t recording) const override { return at(recording).info.clock; }
   std::shared_ptr<const HandTrace> hands(std::uint32_t recording) const override {
-    MovementCache::Recording& entry = at(recording);
+    MovementCache::Entry& entry = at(recording);
     find_once(entry, entry.traced, [&] { trace(entry); });
     return entry.trace;
   }
@@ -168,7 +167,7 @@ class StoredMovement : public Movement {
     return values;
   }
   std::vector<Gaze> gaze(std::uint32_t recording, FrameRange frames) const override {
-    MovementCache::Recording& entry = at(recording);
+    MovementCache::Entry& entry = at(recording);
     if (!entry.info.motion) return {};
     find_once(entry, entry.eyes_known, [&] {
       entry.eyes = gaze_source(entry.info.motion->tracks);
@@ -249,10 +248,10 @@ class StoredMovement : public Movement {
     return false;
   }
 
-  MovementCache::Recording& at(std::uint32_t recording) const {
+  MovementCache::Entry& at(std::uint32_t recording) const {
     if (at_ != recording) {
       pause();
-      std::shared_ptr<MovementCache::Recording> entry = cache_->find(recording);
+      std::shared_ptr<MovementCache::Entry> entry = cache_->find(recording);
       entry_ = entry ? std::move(entry) : cache_->add(recording, read(recording));
       at_ = recording;
       track_places_.clear();
@@ -260,8 +259,8 @@ class StoredMovement : public Movement {
     return *entry_;
   }
 
-  std::shared_ptr<MovementCache::Recording> read(std::uint32_t recording) const {
-    auto entry = std::make_shared<MovementCache::Recording>();
+  std::shared_ptr<MovementCache::Entry> read(std::uint32_t recording) const {
+    auto entry = std::make_shared<MovementCache::Entry>();
     try {
       entry->info = database_->recording_in(*transaction_, segments_->recording_name(recording));
     } catch (const Error& error) {  // a damaged entry of the catalogue
@@ -273,7 +272,7 @@ class StoredMovement : public Movement {
 
   /// Calls `find()`, which fills in a part of an entry, unless a thread has done so.
   template <typename Find>
-  void find_once(MovementCache::Recording& entry, std::atomic<bool>& found, Find&& find) const {
+  void find_once(MovementCache::Entry& entry, std::atomic<bool>& found, Find&& find) const {
     if (found.load(std::memory_order_acquire)) return;
     std::unique_lock lock(entry.finding, std::defer_lock);
     while (!lock.try_lock()) {  // another search does; this one may have to stop before it has
@@ -286,7 +285,7 @@ class StoredMovement : public Movement {
     found.store(true, std::memory_order_release);
   }
 
-  void trace(MovementCache::Recording& entry) const {
+  void trace(MovementCache::Entry& entry) const {
     HandTrace found = no_trace(entry.fault);
     if (entry.fault.empty()) {
       try {
@@ -302,7 +301,7 @@ class StoredMovement : public Movement {
     cache_->grew(bytes);
   }
 
-  void measure(std::uint32_t recording, MovementCache::Recording& entry) const {
+  void measure(std::uint32_t recording, MovementCache::Entry& entry) const {
     if (!entry.traced.load(std::memory_order_acquire)) {
       trace(entry);
       entry.traced.store(true, std::memory_order_release);
@@ -331,7 +330,7 @@ class StoredMovement : public Movement {
   std::shared_ptr<const Segments> segments_;
   std::shared_ptr<MovementCache> cache_;
   mutable std::optional<std::uint32_t> at_;
-  mutable std::shared_ptr<MovementCache::Recording> entry_;
+  mutable std::shared_ptr<MovementCache::Entry> entry_;
   mutable std::map<std::string, TrackPlace, std::less<>> track_places_;  ///< of the recording `at_`
   StopCheck watch_;
   mutable std::optional<std::uint32_t> source_of_;  ///< the recording whose motion is at hand

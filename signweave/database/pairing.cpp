@@ -1,13 +1,15 @@
+#include "signweave/database/pairing.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <map>
 #include <set>
 
 #include "signweave/core/atomic_file.h"
 #include "signweave/core/text.h"
-#include "signweave/database/import.h"
 #include "signweave/formats/annotation_file.h"
 #include "signweave/formats/file_format.h"
 
@@ -74,14 +76,14 @@ void pair_faces(const std::vector<fs::path>& faces, std::vector<ImportJob>& jobs
     const fs::path face = job.motion->parent_path() / (job.motion->stem().string() + ".face.csv");
     if (fs::is_regular_file(face, ignored)) job.face = face;
   }
-  const auto beside = [](const fs::path& folder, const fs::path& stem) {
+  const auto joined = [](const fs::path& folder, const fs::path& stem) {
     std::error_code unresolved;
     return fs::weakly_canonical(folder.empty() ? "." : folder, unresolved) / stem;
   };
   for (const fs::path& face : faces) {
-    const fs::path stem = beside(face.parent_path(), face.stem().stem());
+    const fs::path stem = joined(face.parent_path(), face.stem().stem());
     const auto job = std::find_if(jobs.begin(), jobs.end(), [&](const ImportJob& one) {
-      return one.motion && beside(one.motion->parent_path(), one.motion->stem()) == stem;
+      return one.motion && joined(one.motion->parent_path(), one.motion->stem()) == stem;
     });
     const std::optional<fs::path> motion = motion_called(face.parent_path() / face.stem().stem());
     if (job != jobs.end()) {
@@ -217,7 +219,7 @@ std::vector<ImportJob> read_pairs(const fs::path& table, bool plain_files) {
     ImportJob job;
     job.signer = field(2);
     job.name = field(6);
-    job.name_told = !job.name.empty();
+    job.given_name = !job.name.empty();
     const auto path_of = [&](const std::string& text, FileKind kind) -> std::optional<fs::path> {
       if (text.empty()) return std::nullopt;
       if (plain_files && text.find_first_of("/\\") != std::string::npos) {
@@ -245,7 +247,7 @@ std::vector<ImportJob> read_pairs(const fs::path& table, bool plain_files) {
       double ms = 0;
       const char* end = text.data() + text.size();
       if (std::from_chars(text.data(), end, ms).ptr != end || !std::isfinite(ms)) {
-        fail(fmt::format("the offset '{}' is no number of milliseconds", printable(text)));
+        fail(fmt::format("the offset '{}' is not a number of milliseconds", printable(text)));
       }
       return Seconds(ms / 1000.0);
     };
@@ -283,7 +285,7 @@ void name_jobs(std::vector<ImportJob>& jobs) {
   for (;;) {
     std::map<std::string, std::vector<std::size_t>> by_name;
     for (std::size_t i = 0; i < jobs.size(); ++i) {
-      if (jobs[i].name_told) {
+      if (jobs[i].given_name) {
         by_name[jobs[i].name].push_back(i);
         continue;
       }

@@ -78,7 +78,7 @@ TEST_F(PairingTest, AFileOfAnotherKindIsRefusedByNameAndPassedOverInAFolder) {
   EXPECT_THAT(pairing.notices[0].text, HasSubstr("1 file of other kinds"));
 }
 
-TEST_F(PairingTest, AFaceGoesWithTheMotionBesideItAndNoOther) {
+TEST_F(PairingTest, AFaceGoesWithTheMotionNextToItAndNoOther) {
   write_motion("x/a.bvh", 1);
   write_motion("y/a.bvh", 2);
   write_motion("y/b.BVH", 3);
@@ -109,7 +109,7 @@ TEST_F(PairingTest, AFaceGoesWithAMotionThatATablePairs) {
   EXPECT_EQ(pairing.jobs[0].face, files() / "a.face.csv");
 }
 
-TEST_F(PairingTest, ATableOfPairsTakesAFaceAwayAndTellsNames) {
+TEST_F(PairingTest, ATableOfPairsTakesAFaceAwayAndGivesNames) {
   write_motion("a.bvh", 1);
   write_annotation("a.eaf", {"A"});
   write_text("a.face.csv", face_text("0.5"));

@@ -66,7 +66,7 @@ TEST_P(RelayoutTest, FromEveryModeToEveryModeTheBitsStay) {
   RecordingInfo after = *database.info("a");
   after.motion = before.motion;
   EXPECT_EQ(after.document, before.document);
-  EXPECT_EQ(after.motion_fingerprint, before.motion_fingerprint);
+  EXPECT_EQ(after.motion_facts.fingerprint, before.motion_facts.fingerprint);
   EXPECT_THAT(check(database).faults, ElementsAre());
 }
 

@@ -77,7 +77,7 @@ void remove(kv::WriteTransaction& transaction, const std::string& name) {
   });
 }
 
-void remake(kv::WriteTransaction& transaction) {
+void rebuild(kv::WriteTransaction& transaction) {
   catalogue::Head head = catalogue::read_head(transaction);
   std::vector<std::string> faults;
   const SegmentTable table = table_of_all(transaction, faults);

@@ -9,19 +9,19 @@
 /// The segment tables as part of a change of a database. Internal to `database` and `backup`.
 namespace signweave::tables {
 
-/// The table of one recording.
+/// Returns the table of one recording.
 SegmentTable table_of(const RecordingInfo& info, const SegmentChunk& segments);
 
-/// The table of all recordings, made from their own segments; one line for each that is damaged and left out.
+/// Returns the table of all recordings, built from their own segments; adds a line for each one left out as damaged.
 SegmentTable table_of_all(const kv::ReadTransaction& snapshot, std::vector<std::string>& faults);
 
-/// In a change, after the catalogue is written: a recording came, or changed. Takes generations from the head.
+/// Within a change, after the catalogue is written: a recording was added or changed. Takes generations from the head.
 void put(kv::WriteTransaction& transaction, const RecordingInfo& info, const SegmentChunk& segments, bool was_there);
-/// A recording is gone; one without a name, and all are looked at again.
+/// A recording was removed; if `name` is empty, all are read again.
 void remove(kv::WriteTransaction& transaction, const std::string& name);
-/// One table of all, whatever is there; throws Error{corrupt} where a recording's own segments are damaged.
-void remake(kv::WriteTransaction& transaction);
-/// Few tables again; false where there are few.
+/// Rebuilds one table of all recordings. Throws Error{corrupt} if a recording's own segments are damaged.
+void rebuild(kv::WriteTransaction& transaction);
+/// Merges many tables into few; false if there are few already.
 bool merge(kv::WriteTransaction& transaction);
 
 }  // namespace signweave::tables

@@ -89,8 +89,8 @@ bool finite(const PhaseFeatures& phase) noexcept;
 /// Returns whether two measurements are equal up to rounding differences between compilers.
 bool nearly_same(const PhaseFeatures& a, const PhaseFeatures& b) noexcept;
 
-/// The stored form; the layout is described in feature_record.cpp. `decode_features` returns nullopt if another version
-/// measured them, and throws Error{corrupt} on bytes that `encode` cannot have written.
+/// The stored form; the layout is described in phase_features_record.cpp. `decode_features` returns nullopt if another
+/// version measured them, and throws Error{corrupt} on bytes that `encode` cannot have written.
 void encode(const RecordingFeatures& features, ByteWriter& out);
 std::optional<RecordingFeatures> decode_features(ByteReader& in);
 

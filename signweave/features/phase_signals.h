@@ -9,7 +9,7 @@
 namespace signweave {
 
 inline constexpr double kSegmenterRate = 30;       ///< frame rate of the segmenter, hertz
-inline constexpr std::size_t kPhaseFeatures = 27;  ///< values per hand and frame; see segment_features.cpp
+inline constexpr std::size_t kPhaseFeatures = 27;  ///< values per hand and frame; see phase_signals_features.cpp
 
 /// A part of a recording without gaps, at kSegmenterRate.
 struct PhaseFrames {

@@ -36,8 +36,8 @@ std::string root_name(std::string_view text) {
 }  // namespace
 
 bool is_name(const std::filesystem::path& path) {
-  const std::string ending = fold_case(path.extension().string());
-  return ending == ".eaf" || ending == ".anvil";
+  const std::string extension = fold_case(path.extension().string());
+  return extension == ".eaf" || extension == ".anvil";
 }
 
 SourceFormat format_of(std::string_view text) {

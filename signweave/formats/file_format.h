@@ -23,8 +23,8 @@ struct FileFormat {
   std::string_view extension;  ///< ".bvh", ".face.csv": in lower case, unique
   std::string_view name;       ///< of the format: "BVH"
   FileKind kind;
-  bool reads;
-  bool writes;
+  bool reads = false;
+  bool writes = false;
   std::string_view media_type;  ///< of HTTP
   std::string_view holds;
   std::string_view lost;  ///< what it cannot hold of a recording

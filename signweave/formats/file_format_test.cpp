@@ -10,7 +10,7 @@
 namespace signweave {
 namespace {
 
-TEST(FileFormats, AreToldByTheLongestEndingInAnyCase) {
+TEST(FileFormats, AreFoundByTheLongestExtensionInAnyCase) {
   EXPECT_EQ(file_format("a/b.BVH")->name, "BVH");
   EXPECT_EQ(file_format("meteo.face.csv")->kind, FileKind::face);
   EXPECT_EQ(file_format("meteo.csv")->kind, FileKind::product);
@@ -19,10 +19,10 @@ TEST(FileFormats, AreToldByTheLongestEndingInAnyCase) {
   EXPECT_EQ(file_format("folder.bvh/meteo"), nullptr);
 }
 
-TEST(FileFormats, HaveEachEndingOnceAndSayWhatTheyHold) {
-  std::set<std::string_view> endings;
+TEST(FileFormats, HaveEachExtensionOnceAndSayWhatTheyHold) {
+  std::set<std::string_view> extensions;
   for (const FileFormat& format : file_formats()) {
-    EXPECT_TRUE(endings.insert(format.extension).second) << format.extension;
+    EXPECT_TRUE(extensions.insert(format.extension).second) << format.extension;
     EXPECT_TRUE(format.reads || format.writes) << format.extension;
     EXPECT_FALSE(format.name.empty() || format.holds.empty() || format.lost.empty() || format.media_type.empty());
     EXPECT_EQ(format.extension, file_format(std::string("x") + std::string(format.extension))->extension);
@@ -41,7 +41,7 @@ TEST(FileFormats, ThatAreWrittenAndNoOthersHaveAWriter) {
   }
 }
 
-TEST(MotionFiles, OfEveryReadableEndingHaveAReader) {
+TEST(MotionFiles, OfEveryReadableExtensionHaveAReader) {
   for (const FileFormat& format : file_formats()) {
     if (format.kind != FileKind::motion || !format.reads) continue;
     try {
@@ -63,21 +63,21 @@ TEST(MotionFiles, SayWhichOptionsTheyPassOver) {
   EXPECT_TRUE(read.layout);
   ASSERT_FALSE(read.notices.empty());
   EXPECT_EQ(read.notices.back().text, "take does not apply to BVH files and was ignored");
-  EXPECT_EQ(motion_file::told(file, options), "unit=0.01");
+  EXPECT_EQ(motion_file::given_options(file, options), "unit=0.01");
 }
 
-TEST(MotionFiles, WhatTheyWereToldIsToldBack) {
+TEST(MotionFiles, GivenOptionsAreReadBack) {
   motion_file::ReadOptions options;
   options.unit = 0.0254;
   options.rate = FrameRate{30'000, 1001};
   options.take = "walk;unit=3=x";
-  const std::string line = motion_file::told("a.glb", options);
-  const motion_file::ReadOptions back = motion_file::options_told(line);
+  const std::string line = motion_file::given_options("a.glb", options);
+  const motion_file::ReadOptions back = motion_file::options_in(line);
   EXPECT_EQ(back.unit, options.unit);
   EXPECT_EQ(back.rate, options.rate);
   EXPECT_EQ(back.take, options.take);
-  EXPECT_EQ(motion_file::told("a.glb", back), line);
-  EXPECT_EQ(motion_file::told("a.glb", motion_file::options_told("")), "");
+  EXPECT_EQ(motion_file::given_options("a.glb", back), line);
+  EXPECT_EQ(motion_file::given_options("a.glb", motion_file::options_in("")), "");
 }
 
 }  // namespace

@@ -95,7 +95,7 @@ std::vector<Telling> tellings(const ReadOptions& options) {
 }
 
 struct MotionReader {
-  std::string_view ending;
+  std::string_view extension;
   std::string_view takes;  ///< the options that it knows, each between blanks
   File (*read)(const fs::path&, const ReadOptions&);
   std::vector<fs::path> (*files)(const fs::path&, const ReadOptions&);  ///< everything that is read
@@ -112,10 +112,10 @@ constexpr MotionReader kMotionReaders[] = {
 const MotionReader& reader_for(const fs::path& path) {
   const FileFormat* format = file_format(path);
   for (const MotionReader& reader : kMotionReaders) {
-    if (format != nullptr && format->extension == reader.ending) return reader;
+    if (format != nullptr && format->extension == reader.extension) return reader;
   }
   throw Error(ErrorCode::unsupported,
-              fmt::format("{}: is no motion file {}", path.string(), readable_extensions(FileKind::motion)));
+              fmt::format("{}: is not a motion file {}", path.string(), readable_extensions(FileKind::motion)));
 }
 
 bool knows(const MotionReader& reader, std::string_view option) {
@@ -144,7 +144,7 @@ std::uint64_t fingerprint(const fs::path& path, const ReadOptions& options) {
   return checksum(all.bytes());
 }
 
-std::string told(const fs::path& path, const ReadOptions& options) {
+std::string given_options(const fs::path& path, const ReadOptions& options) {
   const MotionReader& reader = reader_for(path);
   std::string line;
   for (const Telling& one : tellings(options)) {
@@ -157,7 +157,7 @@ std::string told(const fs::path& path, const ReadOptions& options) {
   return line;
 }
 
-ReadOptions options_told(std::string_view line) {
+ReadOptions options_in(std::string_view line) {
   ReadOptions options;
   while (!line.empty()) {
     const std::size_t equals = line.find('=');

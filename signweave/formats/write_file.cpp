@@ -26,7 +26,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string note_of(const std::vector<std::pair<std::string, std::string>>& declarations) {
+std::string note_of(const Declarations& declarations) {
   std::string note;
   for (const auto& [name, value] : declarations) note += (note.empty() ? "" : "; ") + value;
   return note;
@@ -174,20 +174,24 @@ struct Writer {
   Holds holds;
   std::string (*text)(const FileContent&);
   /// Writes long files piece by piece; null: the text is written.
-  void (*write)(const fs::path&, const FileContent&);
+  void (*write)(const fs::path&, const FileContent&) = nullptr;
   bool grows = false;  ///< its files become large with the number of frames
 };
 
 constexpr Writer kWriters[] = {
-    {".bvh", Holds::motion, bvh_text, write_bvh, true},
-    {".glb", Holds::motion, glb_text, write_gltf},
-    {".gltf", Holds::motion, gltf_text, write_gltf},
-    {".eaf", Holds::annotation, eaf_text, nullptr},
-    {".json", Holds::motion, json_text, nullptr, true},
-    {".csv", Holds::motion, positions_text, write_positions, true},
-    {".rotations.csv", Holds::motion, rotations_text, write_rotations, true},
-    {".face.csv", Holds::tracks, face_text, nullptr},
-    {".svg", Holds::motion, svg_text, nullptr},
+    {.extension = ".bvh", .holds = Holds::motion, .text = bvh_text, .write = write_bvh, .grows = true},
+    {.extension = ".glb", .holds = Holds::motion, .text = glb_text, .write = write_gltf},
+    {.extension = ".gltf", .holds = Holds::motion, .text = gltf_text, .write = write_gltf},
+    {.extension = ".eaf", .holds = Holds::annotation, .text = eaf_text},
+    {.extension = ".json", .holds = Holds::motion, .text = json_text, .grows = true},
+    {.extension = ".csv", .holds = Holds::motion, .text = positions_text, .write = write_positions, .grows = true},
+    {.extension = ".rotations.csv",
+     .holds = Holds::motion,
+     .text = rotations_text,
+     .write = write_rotations,
+     .grows = true},
+    {.extension = ".face.csv", .holds = Holds::tracks, .text = face_text},
+    {.extension = ".svg", .holds = Holds::motion, .text = svg_text},
 };
 
 std::string extension_fault(std::string_view where, std::string_view extension,

@@ -6,9 +6,9 @@
 #include <optional>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
+#include "signweave/annotation/declarations.h"
 #include "signweave/annotation/document.h"
 #include "signweave/formats/bvh/bvh.h"
 #include "signweave/motion/motion.h"
@@ -28,9 +28,9 @@ struct FileContent {
   std::optional<bvh::Layout> layout{};           ///< for .bvh; none: bvh::default_layout
   bvh::LayoutChanges layout_changes{};           ///< changes to the layout
   std::string title{};
-  RigNames rig{};              ///< joints named by a mapping file
-  bool signing_space = false;  ///< for .svg: draw the signing space behind each figure
-  std::vector<std::pair<std::string, std::string>> declarations{};  ///< of the sources, such as "signweave:placeholder"
+  RigNames rig{};                     ///< joints named by a mapping file
+  bool signing_space = false;         ///< for .svg: draw the signing space behind each figure
+  Declarations declarations{};        ///< of the sources, such as "signweave:placeholder"
   std::filesystem::path character{};  ///< for .glb: the character's plain GLB, whose joints the motion has; empty: none
   std::string motion_file{};          ///< for .eaf of a synthesis: the name of the motion file that it links
   std::function<void(double fraction)> progress{};  ///< of each file; may throw to cancel

@@ -23,7 +23,7 @@ MotionClip LiveScore::clip_of(const PlaceQueue::Decision& decision, std::size_t 
           .clock = info.clock,
           .signs = candidate.signs,
           .pause_before = queue_.pause_before(place),
-          .fingerprint = info.motion_fingerprint,
+          .fingerprint = info.motion_facts.fingerprint,
           .place = place + queue_.forgotten(),
           .noise = source == own ? open_.snapshot().joins(candidate.recording)->noise : nullptr};
 }
@@ -69,7 +69,7 @@ void LiveScore::rest_in(const std::string& recording) {
                          .core = clamp({0, kBodyFrames}, info.motion->frames),
                          .clock = info.clock,
                          .signs = {},
-                         .fingerprint = info.motion_fingerprint};
+                         .fingerprint = info.motion_facts.fingerprint};
   setup_ = set_up(base_, open_.snapshot(), contents, first, options_);
   if (options_.idle != Idle::living_rest) return;
   chain_.begin(place_rest(*setup_));

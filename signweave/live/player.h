@@ -5,9 +5,9 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
+#include "signweave/annotation/declarations.h"
 #include "signweave/choose/synthesizer.h"
 #include "signweave/core/time.h"
 #include "signweave/live/frame_codec.h"
@@ -35,9 +35,8 @@ struct StreamHeader {
   std::shared_ptr<const Skeleton> skeleton;
   FrameRate rate;
   std::vector<std::string> tracks;
-  std::string layout_from;  ///< the recording that the skeleton comes from
-  /// Declarations of the sources' documents, such as that a demo's shapes are placeholders.
-  std::vector<std::pair<std::string, std::string>> declarations;
+  std::string layout_from;    ///< the recording that the skeleton comes from
+  Declarations declarations;  ///< of the recordings: sorted, each once
 
   FrameShape shape() const noexcept { return {skeleton->joint_count(), skeleton->translation_count(), tracks.size()}; }
 };

@@ -216,15 +216,13 @@ std::vector<std::string> SharedSigningCache::tracks(const Contents& contents, co
   return names;
 }
 
-std::shared_ptr<const std::vector<std::pair<std::string, std::string>>> SharedSigningCache::declarations(
-    const std::shared_ptr<const Contents>& contents) {
-  using Declarations = std::vector<std::pair<std::string, std::string>>;
+std::shared_ptr<const Declarations> SharedSigningCache::declarations(const std::shared_ptr<const Contents>& contents) {
   return look_up<Declarations>(
       contents, [&](Known & known) -> auto& { return known.declarations; },
       [&] {
-        DeclarationSet all;
+        Declarations all;
         for (const RecordingInfo& info : contents->recordings) add_declarations(info, all);
-        return Declarations(all.begin(), all.end());
+        return all;
       });
 }
 

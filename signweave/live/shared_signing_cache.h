@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "signweave/annotation/declarations.h"
 #include "signweave/choose/candidate.h"
 #include "signweave/choose/captured_spans.h"
 #include "signweave/choose/concatenate.h"
@@ -67,8 +68,7 @@ class SharedSigningCache {
   /// The names of all scalar tracks of the database, those of `recording` first.
   std::vector<std::string> tracks(const Contents& contents, const std::string& recording) const;
   /// The unique declarations of all recordings.
-  std::shared_ptr<const std::vector<std::pair<std::string, std::string>>> declarations(
-      const std::shared_ptr<const Contents>& contents);
+  std::shared_ptr<const Declarations> declarations(const std::shared_ptr<const Contents>& contents);
 
   /// A number for each state of the database that was used; data computed in one state is not valid in another.
   std::uint64_t state_number(const std::shared_ptr<const Contents>& contents);
@@ -88,7 +88,7 @@ class SharedSigningCache {
     std::map<std::pair<std::string, std::string>, std::shared_ptr<const BodyMapping>>
         mappings;                                         ///< by recording, and the recording of the target skeleton
     std::vector<std::shared_ptr<const KnownRest>> rests;  ///< few: one for each signer and skeleton
-    std::shared_ptr<const std::vector<std::pair<std::string, std::string>>> declarations;
+    std::shared_ptr<const Declarations> declarations;
   };
   /// The cached data of these contents; only that of the newest is kept. Requires the lock.
   Known& of(const std::shared_ptr<const Contents>& contents);

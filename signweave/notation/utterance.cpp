@@ -14,14 +14,19 @@ namespace {
 
 /// One word of the syntax.
 struct UtteranceWord {
-  std::size_t column = 1;  ///< in bytes, from 1
-  std::string text;        ///< without its quotes
-  bool quoted = false;     ///< it began with a quote
-  std::string suffix;      ///< the text after the closing quote, or "#3" and "@1..2" of a bare word
+  WordSpan at;
+  std::string text;     ///< without its quotes
+  bool quoted = false;  ///< it began with a quote
+  bool closed = true;   ///< it ends with the same
+  std::string suffix;   ///< the text after the closing quote, or "#3" and "@1..2" of a bare word
 };
 
-[[noreturn]] void fail(std::string_view what, std::size_t column, std::string_view why) {
-  throw Error(ErrorCode::bad_input, fmt::format("{}:1:{}: {}", what, column, why));
+constexpr std::size_t kMostBytes = 1'000'000;
+
+/// `begin` is in bytes; the column is in characters.
+[[noreturn]] void fail(std::string_view what, std::string_view text, std::size_t begin, std::string_view why) {
+  const auto before = std::ranges::count_if(text.substr(0, begin), [](char c) { return (c & 0xC0) != 0x80; });
+  throw Error(ErrorCode::bad_input, fmt::format("{}:1:{}: {}", what, before + 1, why));
 }
 
 bool is_blank(char c) noexcept {
@@ -61,15 +66,15 @@ PieceSuffix piece_suffix(std::string_view word) {
   return {at, {Milliseconds(*begin), Milliseconds(*end)}};
 }
 
-UtteranceWord next_word(std::string_view text, std::size_t& at, std::string_view what) {
-  UtteranceWord word;
-  word.column = at + 1;
+UtteranceWord next_word(std::string_view text, std::size_t begin) {
+  UtteranceWord word{.at = {begin, begin}};
+  std::size_t& at = word.at.end;
   if (text[at] == '"') {
     const std::size_t close = text.find('"', at + 1);
-    if (close == text.npos) fail(what, word.column, "a quote is opened here and never closed");
     word.quoted = true;
-    word.text = text.substr(at + 1, close - at - 1);
-    at = close + 1;
+    word.closed = close != text.npos;
+    word.text = text.substr(at + 1, word.closed ? close - at - 1 : text.npos);
+    at = word.closed ? close + 1 : text.size();
     while (at < text.size() && !is_blank(text[at])) word.suffix += text[at++];
     return word;
   }
@@ -83,29 +88,48 @@ UtteranceWord next_word(std::string_view text, std::size_t& at, std::string_view
   return word;
 }
 
-Place place_of(const UtteranceWord& word, std::string_view what) {
+/// What a word of a text asks for, or what is wrong with it.
+struct WordReading {
   Place place;
-  if (trimmed(word.text).empty()) fail(what, word.column, "an empty name");
+  std::optional<UtteranceFault> fault{};
+};
+
+WordReading read_word(const UtteranceWord& word, std::string_view text) {
+  using enum UtteranceFault::Kind;
+  const auto faulty = [&](UtteranceFault::Kind kind, std::string message, std::string replacement = {}) {
+    return WordReading{{}, UtteranceFault{kind, word.at, std::move(message), std::move(replacement)}};
+  };
+  if (!word.closed) {
+    const bool named = !trimmed(word.text).empty();
+    const std::string_view written = text.substr(word.at.begin);
+    return faulty(open_quote, "a quote is opened here and never closed", named ? std::string(written) + '"' : "");
+  }
+  if (trimmed(word.text).empty()) return faulty(empty_name, "an empty name");
+  WordReading reading;
+  Place& place = reading.place;
   const PieceSuffix piece = piece_suffix(word.suffix);
   if (piece.at == 0) {
     if (piece.span.begin >= piece.span.end)
-      fail(what, word.column, "a piece must end after it begins: NAME@BEGIN..END in ms");
+      return faulty(piece_order, "a piece must end after it begins: NAME@BEGIN..END in ms");
     place.kind = Place::Kind::piece;
     place.recording = word.text;
     place.span = piece.span;
-    return place;
+    return reading;
   }
   place.gloss.gloss = word.text;
-  if (word.suffix.empty()) return place;
+  if (word.suffix.empty()) return reading;
   const auto token =
       word.suffix.front() == '#' ? whole_number<std::size_t>(std::string_view(word.suffix).substr(1)) : std::nullopt;
   if (!token) {
-    fail(what, word.column,
-         fmt::format("'{}' after the name is neither #TOKEN nor @BEGIN..END", printable(word.suffix)));
+    return faulty(bad_suffix,
+                  fmt::format("'{}' after the name is neither #TOKEN nor @BEGIN..END", printable(word.suffix)));
   }
-  if (*token == 0) fail(what, word.column, "tokens are counted from 1");
+  if (*token == 0) {
+    const std::size_t length = word.at.end - word.at.begin - word.suffix.size();
+    return faulty(token_zero, "tokens are counted from 1", std::string(text.substr(word.at.begin, length)));
+  }
   place.gloss.token = *token;
-  return place;
+  return reading;
 }
 
 /// A name in the form in which it must be typed. (One that contains a quote and needs quotes cannot be typed.)
@@ -118,27 +142,64 @@ std::string quoted_if_needed(const std::string& name) {
 
 }  // namespace
 
-Utterance parse_utterance(std::string_view text) {
-  if (text.size() > 1'000'000) fail("utterance", 1, "longer than 1,000,000 bytes");
-  Utterance utterance;
+std::string_view name_of(UtteranceFault::Kind kind) noexcept {
+  switch (kind) {
+    case UtteranceFault::Kind::open_quote:
+      return "open_quote";
+    case UtteranceFault::Kind::empty_name:
+      return "empty_name";
+    case UtteranceFault::Kind::bad_suffix:
+      return "bad_suffix";
+    case UtteranceFault::Kind::token_zero:
+      return "token_zero";
+    case UtteranceFault::Kind::piece_order:
+      return "piece_order";
+    case UtteranceFault::Kind::too_long:
+      return "too_long";
+  }
+  return "";
+}
+
+UtteranceText read_utterance(std::string_view text) {
+  UtteranceText read;
+  if (text.size() > kMostBytes) {
+    read.faults.push_back({UtteranceFault::Kind::too_long, {0, text.size()}, "longer than 1,000,000 bytes", {}});
+    return read;
+  }
+  std::vector<Place>& places = read.utterance.places;
   Milliseconds pause{0};
   for (std::size_t at = 0; at < text.size();) {
     if (is_blank(text[at])) {
       ++at;
       continue;
     }
-    const UtteranceWord word = next_word(text, at, "utterance");
+    const UtteranceWord word = next_word(text, at);
+    at = word.at.end;
     if (!word.quoted && word.suffix.empty() && (word.text == "," || word.text == ".")) {
       pause = std::max(pause, word.text == "," ? kComma : kFullStop);
       continue;
     }
-    Place place = place_of(word, "utterance");
-    if (!utterance.places.empty()) place.pause_before = pause;
+    WordReading reading = read_word(word, text);
+    if (reading.fault) {
+      if (read.faults.size() < kMostUtteranceFaults) read.faults.push_back(std::move(*reading.fault));
+      continue;
+    }
+    if (!places.empty()) reading.place.pause_before = pause;
     pause = Milliseconds(0);
-    utterance.places.push_back(std::move(place));
+    places.push_back(std::move(reading.place));
+    read.spans.push_back(word.at);
   }
-  if (utterance.places.empty()) fail("utterance", 1, "no sign in it; give glosses separated by blanks");
-  return utterance;
+  read.pause_after = pause;
+  return read;
+}
+
+Utterance parse_utterance(std::string_view text) {
+  UtteranceText read = read_utterance(text);
+  if (!read.faults.empty()) fail("utterance", text, read.faults.front().at.begin, read.faults.front().message);
+  if (read.utterance.places.empty()) {
+    fail("utterance", text, 0, "no sign in it; give glosses separated by blanks");
+  }
+  return std::move(read.utterance);
 }
 
 std::string to_string(const GlossRef& gloss) {
@@ -164,23 +225,24 @@ std::string to_string(const Utterance& utterance) {
 
 GlossRef parse_gloss_ref(std::string_view text, std::string_view what) {
   const std::string_view inner = trimmed(text);
-  if (inner.empty()) fail(what, 1, "a gloss is missing");
+  if (inner.empty()) fail(what, inner, 0, "a gloss is missing");
   // A bare gloss may contain blanks here, because nothing else is separated by them.
   UtteranceWord word;
   if (inner.front() == '"') {
-    std::size_t at = 0;
-    word = next_word(inner, at, what);
-    if (at != inner.size()) fail(what, at + 1, "something follows the quoted gloss");
+    word = next_word(inner, 0);
+    if (word.at.end != inner.size()) fail(what, inner, word.at.end, "something follows the quoted gloss");
   } else {
+    word.at.end = inner.size();
     word.text = inner;
     if (const std::size_t suffix = token_suffix(inner); suffix != inner.npos) {
       word.suffix = inner.substr(suffix);
       word.text = inner.substr(0, suffix);
     }
   }
-  const Place place = place_of(word, what);
-  if (place.kind != Place::Kind::gloss) fail(what, 1, "expected a gloss, not a piece of a recording");
-  return place.gloss;
+  const WordReading reading = read_word(word, inner);
+  if (reading.fault) fail(what, inner, reading.fault->at.begin, reading.fault->message);
+  if (reading.place.kind != Place::Kind::gloss) fail(what, inner, 0, "expected a gloss, not a piece of a recording");
+  return reading.place.gloss;
 }
 
 std::size_t find_unquoted(std::string_view text, std::string_view separator, std::size_t from) noexcept {

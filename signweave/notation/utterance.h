@@ -37,10 +37,43 @@ struct Utterance {
   friend bool operator==(const Utterance&, const Utterance&) = default;
 };
 
-/// Parses glosses separated by white space. Only double quotes quote, and everything inside them is literal. `MATIN#3`
+/// The position of a word in the text of an utterance, in bytes; half-open.
+struct WordSpan {
+  std::size_t begin = 0;
+  std::size_t end = 0;
+  friend bool operator==(const WordSpan&, const WordSpan&) = default;
+};
+
+/// A word that asks for nothing that can be signed.
+struct UtteranceFault {
+  enum class Kind { open_quote, empty_name, bad_suffix, token_zero, piece_order, too_long };
+  Kind kind = Kind::open_quote;
+  WordSpan at;              ///< of an open quote: to the end of the text
+  std::string message;      ///< what is wrong and how to fix it, in one line
+  std::string replacement;  ///< the word without this fault; empty if only the author can know it
+};
+
+/// The maximum number of faults that are reported for one text.
+inline constexpr std::size_t kMostUtteranceFaults = 20;
+
+/// Returns "open_quote", "empty_name", …
+std::string_view name_of(UtteranceFault::Kind kind) noexcept;
+
+/// The content of a text that may have faults.
+struct UtteranceText {
+  Utterance utterance;                 ///< the words without a fault; may be empty
+  std::vector<WordSpan> spans;         ///< [place]
+  Milliseconds pause_after{0};         ///< of `,` and `.` after the last sign
+  std::vector<UtteranceFault> faults;  ///< in the order of the text, at most kMostUtteranceFaults
+};
+
+/// Reads glosses separated by white space. Only double quotes quote, and everything inside them is literal. `MATIN#3`
 /// is a token, `"ISL Thanks"@1200..3400` a piece of a recording in ms; `,` and `.` as separate words are pauses
-/// (ignored before the first and after the last sign). Throws Error{bad_input, "utterance:1:COLUMN: …"}, also for an
-/// utterance without a sign.
+/// (ignored before the first sign). Faulty words are left out and reported.
+UtteranceText read_utterance(std::string_view text);
+
+/// Returns the utterance of a text without faults. Throws Error{bad_input, "utterance:1:COLUMN: …"} for the first
+/// fault, the column from 1 in characters (code points), and for an utterance without a sign.
 Utterance parse_utterance(std::string_view text);
 
 /// Returns text that parses to the same utterance.

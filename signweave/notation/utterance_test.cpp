@@ -77,6 +77,52 @@ TEST(Utterance, ErrorsNameTheColumnAndTheFix) {
   EXPECT_THAT(fault_in_utterance("\"  \""), HasSubstr("an empty name"));
 }
 
+TEST(Utterance, ColumnsCountCharacters) {
+  EXPECT_THAT(fault_in_utterance("手話 É \"LE MANS"), HasSubstr("utterance:1:6: a quote"));
+}
+
+TEST(UtteranceText, SaysWhereEachPlaceIsInBytes) {
+  const UtteranceText read = read_utterance(" 手話#2 , \"LE MANS\" r@1..20 .");
+  EXPECT_EQ(read.utterance, parse_utterance("手話#2 , \"LE MANS\" r@1..20"));
+  EXPECT_EQ(read.spans, (std::vector<WordSpan>{{1, 9}, {12, 21}, {22, 29}}));
+  EXPECT_EQ(read.pause_after, kFullStop);
+  EXPECT_TRUE(read.faults.empty());
+}
+
+TEST(UtteranceText, ReportsEveryFaultWithItsWordAndReadsTheRest) {
+  const UtteranceText read = read_utterance("A É#0 B \"C\"x , \"\" r@5..5 D \"E F");
+  EXPECT_EQ(read.utterance, parse_utterance("A B , D"));
+  std::vector<std::string> faults;
+  for (const UtteranceFault& fault : read.faults) {
+    faults.push_back(std::string(name_of(fault.kind)) + ' ' + std::to_string(fault.at.begin) + ' ' +
+                     std::to_string(fault.at.end));
+  }
+  EXPECT_EQ(faults, (std::vector<std::string>{"token_zero 2 6", "bad_suffix 9 13", "empty_name 16 18",
+                                              "piece_order 19 25", "open_quote 28 32"}));
+}
+
+TEST(UtteranceText, WithoutASignIsNoFault) {
+  EXPECT_TRUE(read_utterance(" \t ").faults.empty());
+  EXPECT_EQ(read_utterance(", .").pause_after, kFullStop);
+  EXPECT_EQ(read_utterance(std::string(1'000'001, 'A')).faults.at(0).kind, UtteranceFault::Kind::too_long);
+}
+
+TEST(UtteranceText, AFaultNamesTheWordThatWouldBeRight) {
+  const auto replacement = [](const std::string& text) { return read_utterance(text).faults.at(0).replacement; };
+  EXPECT_EQ(replacement("A \"LE MANS"), "\"LE MANS\"");
+  EXPECT_EQ(replacement("MATIN#0 B"), "MATIN");
+  EXPECT_EQ(replacement("A \""), "");
+  EXPECT_EQ(replacement("r@5..5"), "");
+}
+
+TEST(UtteranceText, ReportsOnlySoManyFaults) {
+  std::string text;
+  for (int i = 0; i < 100; ++i) text += "A#0 B ";
+  const UtteranceText read = read_utterance(text);
+  EXPECT_EQ(read.faults.size(), kMostUtteranceFaults);
+  EXPECT_EQ(read.utterance.places.size(), 100u);
+}
+
 RC_GTEST_PROP(Utterance, PrintedTextParsesToTheSameUtterance, ()) {
   const auto name = rc::gen::nonEmpty(
       rc::gen::container<std::string>(rc::gen::element('A', 'b', '#', '3', '@', '.', ',', '\'', ' ')));

@@ -76,7 +76,7 @@ class TestCorpus {
 
   SegmentTable table() const {
     std::vector<SegmentChunk> chunks;
-    for (const Recording& each : recordings_) chunks.push_back(segments_of(each.document, each.signs));
+    for (const TestRecording& each : recordings_) chunks.push_back(segments_of(each.document, each.signs));
     std::vector<SegmentTable::Source> sources;
     for (std::size_t i = 0; i < chunks.size(); ++i)
       sources.push_back({recordings_[i].name, &chunks[i], recordings_[i].name == "meteo" ? "anna" : ""});
@@ -84,7 +84,7 @@ class TestCorpus {
   }
 
  private:
-  struct Recording {
+  struct TestRecording {
     std::string name;
     AnnotationDocument document;
     std::vector<Sign> signs;
@@ -100,7 +100,7 @@ class TestCorpus {
     return annotation.id;
   }
 
-  std::vector<Recording> recordings_;
+  std::vector<TestRecording> recordings_;
   int last_id_ = 0;
 };
 

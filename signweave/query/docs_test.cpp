@@ -46,7 +46,7 @@ TEST(Documentation, EveryExampleHasAnAnswer) {
       EXPECT_TRUE(hints(query, table).empty()) << text;
       EXPECT_EQ(parse(to_string(query)), query) << text;
       EXPECT_FALSE(explain(query, table).empty()) << text;
-    } catch (const QueryError& error) {
+    } catch (const SyntaxError& error) {
       ADD_FAILURE() << text << '\n' << error.what() << '\n' << error.caret;
     }
   }

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
+#include "signweave/core/syntax_error.h"
 #include "signweave/core/text.h"
-#include "signweave/query/parse.h"
 
 namespace signweave {
 namespace {
@@ -15,10 +15,6 @@ constexpr std::string_view kBlanks = " \t\r\n\v\f";
 
 bool continues(char c) noexcept {
   return (static_cast<unsigned char>(c) & 0xC0) == 0x80;
-}
-
-std::size_t letters(std::string_view text) noexcept {
-  return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) { return !continues(c); }));
 }
 
 /// Length in bytes of the first character of `text`, as given by its first byte.
@@ -42,7 +38,7 @@ std::string caret_under(std::string_view line, std::size_t offset) {
   for (char& c : shown) {
     if (static_cast<unsigned char>(c) < 0x20 || c == 0x7F) c = ' ';
   }
-  return shown + '\n' + std::string(letters(line.substr(begin, offset - begin)), ' ') + '^';
+  return shown + '\n' + std::string(count_characters(line.substr(begin, offset - begin)), ' ') + '^';
 }
 
 bool ends_word(std::string_view rest) noexcept {
@@ -140,22 +136,14 @@ std::string QueryLexer::shown(const QueryToken& token) {
 }
 
 void QueryLexer::fail(std::size_t offset, const std::string& what, ErrorCode code) const {
-  offset = std::min(offset, text_.size());
-  const std::string_view before = text_.substr(0, offset);
-  const std::size_t line = 1 + static_cast<std::size_t>(std::count(before.begin(), before.end(), '\n'));
-  const std::size_t line_begin = before.rfind('\n') == std::string_view::npos ? 0 : before.rfind('\n') + 1;
-  const std::string_view rest = text_.substr(line_begin);
-  const std::size_t column = 1 + letters(before.substr(line_begin));
-  throw QueryError(code, fmt::format("query:{}:{}: {}", line, column, what), line, column,
-                   caret_under(rest.substr(0, rest.find('\n')), offset - line_begin));
+  const TextPosition at = position_in(text_, offset);
+  throw SyntaxError(code, fmt::format("query:{}:{}: {}", at.line, at.column, what), at.line, at.column,
+                    caret_under(at.line_text, at.offset));
 }
 
 std::string QueryLexer::place_of(std::size_t offset) const {
-  const std::string_view before = text_.substr(0, offset);
-  const std::size_t line_begin = before.rfind('\n') == std::string_view::npos ? 0 : before.rfind('\n') + 1;
-  const std::size_t column = 1 + letters(before.substr(line_begin));
-  if (line_begin == 0) return fmt::format("column {}", column);
-  return fmt::format("line {}, column {}", 1 + std::count(before.begin(), before.end(), '\n'), column);
+  const TextPosition at = position_in(text_, offset);
+  return at.line == 1 ? fmt::format("column {}", at.column) : fmt::format("line {}, column {}", at.line, at.column);
 }
 
 void QueryLexer::skip_blanks() noexcept {

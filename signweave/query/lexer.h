@@ -27,7 +27,7 @@ struct QueryToken {
 /// The text in double quotes, escaped so that it parses to itself.
 std::string in_quotes(std::string_view text);
 
-/// Splits a query into tokens, with one token of look-ahead. Throws QueryError.
+/// Splits a query into tokens, with one token of look-ahead. Throws SyntaxError.
 class QueryLexer {
  public:
   /// Borrows `text`, which must outlive the lexer.

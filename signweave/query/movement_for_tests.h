@@ -51,7 +51,7 @@ class TestMovement : public Movement {
   /// Adds the next recording with its rows.
   void add(TestMotion motion, const std::vector<MovementRow>& rows, const RecordingFeatures& features = {}) {
     recordings_.push_back({.motion = std::move(motion)});
-    Recording& recording = recordings_.back();
+    TestRecording& recording = recordings_.back();
     recording.trace = std::make_shared<const HandTrace>(trace_hands(recording.motion.motion, recording.motion.model));
     recording.columns = measure_rows(rows, features, *recording.trace, recording.motion.clock);
     recording.source = std::make_unique<MemorySource>(recording.motion.motion);
@@ -88,7 +88,7 @@ class TestMovement : public Movement {
     return std::vector<float>(at_rest ? static_cast<std::size_t>(frames.size()) : 0);
   }
   std::vector<Gaze> gaze(std::uint32_t recording, FrameRange frames) const override {
-    const Recording& from = recordings_[recording];
+    const TestRecording& from = recordings_[recording];
     return from.eyes ? gaze_over(*from.source, *from.eyes, frames) : std::vector<Gaze>();
   }
   bool has_track(std::string_view name) const override {
@@ -97,14 +97,14 @@ class TestMovement : public Movement {
   }
   std::vector<std::string> tracks() const override {
     std::set<std::string> names;
-    for (const Recording& recording : recordings_) {
+    for (const TestRecording& recording : recordings_) {
       for (const ScalarTrack& track : recording.motion.motion.tracks()) names.insert({track.name, "cheekPuff"});
     }
     return {names.begin(), names.end()};
   }
 
  private:
-  struct Recording {
+  struct TestRecording {
     TestMotion motion;
     std::shared_ptr<const HandTrace> trace;
     MovementColumns columns;
@@ -113,7 +113,7 @@ class TestMovement : public Movement {
   };
   From from_;
   mutable std::size_t track_reads_ = 0;
-  std::vector<Recording> recordings_;
+  std::vector<TestRecording> recordings_;
 };
 
 /// Two randomly moving persons, one in each recording of `weather_corpus`, the second with a face, so every example in

@@ -47,7 +47,7 @@ RowId step(const SegmentTable& table, RowId row, int by) noexcept {
 
 }  // namespace
 
-RowId first_ending_at_or_after(const SegmentTable& table, RowRange range, Milliseconds time) noexcept {
+RowId first_with_end_at_or_after(const SegmentTable& table, RowRange range, Milliseconds time) noexcept {
   return first_row(range, [&](RowId row) { return table.end(row) >= time; });
 }
 
@@ -87,7 +87,7 @@ std::vector<RowId> rows_before(const SegmentTable& table, RowId row, const Inter
   const Milliseconds begin = table.begin(row);
   const Milliseconds last = begin - gap.least.value_or(0ms);
   RowId at = group.begin;
-  if (tier.apart() && gap.most) at = first_ending_at_or_after(table, {at, row}, begin - *gap.most);
+  if (tier.apart() && gap.most) at = first_with_end_at_or_after(table, {at, row}, begin - *gap.most);
   std::vector<RowId> result;
   for (; at < row; ++at) {
     const Milliseconds end = table.end(at);

@@ -27,7 +27,7 @@ std::vector<RowId> rows_after(const SegmentTable& table, RowId row, const Interv
 std::vector<RowId> rows_before(const SegmentTable& table, RowId row, const Interval& gap);
 
 /// The first row of a range that ends at `time` or later. No two rows of the range may overlap.
-RowId first_ending_at_or_after(const SegmentTable& table, SegmentTable::RowRange range, Milliseconds time) noexcept;
+RowId first_with_end_at_or_after(const SegmentTable& table, SegmentTable::RowRange range, Milliseconds time) noexcept;
 
 /// The position of the last search on one tier; the next search usually continues from there.
 struct TierCursor {
@@ -35,9 +35,9 @@ struct TierCursor {
   RowId at = 0;
 };
 
-/// The same as `first_ending_at_or_after(table, tier.own(), time)`, starting at the cursor, which is updated.
-inline RowId first_ending_at_or_after(const SegmentTable& table, const SegmentTable::TierRows& tier, Milliseconds time,
-                                      TierCursor& cursor) noexcept {
+/// The same as `first_with_end_at_or_after(table, tier.own(), time)`, starting at the cursor, which is updated.
+inline RowId first_with_end_at_or_after(const SegmentTable& table, const SegmentTable::TierRows& tier,
+                                        Milliseconds time, TierCursor& cursor) noexcept {
   constexpr RowId kSteps = 8;
   const SegmentTable::RowRange own = tier.own();
   RowId row = cursor.tier == &tier ? cursor.at : own.begin;
@@ -46,9 +46,9 @@ inline RowId first_ending_at_or_after(const SegmentTable& table, const SegmentTa
     const RowId last = std::min(own.end, row + kSteps);
     while (row < last && table.end(row) < time) ++row;
     if (row < last || row == own.end) return cursor.at = row;
-    return cursor.at = first_ending_at_or_after(table, {row, own.end}, time);
+    return cursor.at = first_with_end_at_or_after(table, {row, own.end}, time);
   }
-  return cursor.at = first_ending_at_or_after(table, {own.begin, row}, time);
+  return cursor.at = first_with_end_at_or_after(table, {own.begin, row}, time);
 }
 
 /// Whether two spans are in a relation (`Link::overlaps` and the ones after it).
@@ -79,7 +79,7 @@ inline bool related(TimeSpan one, Link link, TimeSpan other) noexcept {
 template <typename Use>
 bool for_rows_around(const SegmentTable& table, const SegmentTable::TierRows& tier, SegmentTable::RowRange range,
                      TimeSpan span, Use&& use) {
-  RowId row = tier.apart() ? first_ending_at_or_after(table, range, span.begin) : range.begin;
+  RowId row = tier.apart() ? first_with_end_at_or_after(table, range, span.begin) : range.begin;
   for (; row < range.end && table.begin(row) <= span.end; ++row) {
     if (table.end(row) >= span.begin && !use(row)) return false;
   }

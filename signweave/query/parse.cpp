@@ -95,7 +95,7 @@ class Parser {
       if (result.group && !result.own) last.groups.push_back({.places = result.query.elements.size()});
       result.own = true;
       std::vector<Relation>& relations = result.group ? last.groups.back().relations : last.relations;
-      relations.push_back({*link, {}, {}});
+      relations.push_back({.link = *link});
       if (is_term(partner.query)) {
         relations.back().term = std::move(partner.query.elements.front().term);
       } else {
@@ -139,7 +139,7 @@ class Parser {
     const int variables = variables_;
     std::optional<Expression> first;
     if (in_.next_is("(")) {
-      ParsedPart result{parenthesised(), true, false};
+      ParsedPart result{.query = parenthesised(), .group = true};
       if (!is_plain(result.query)) {
         finish_group(result, marked);
         return result;

@@ -5,7 +5,7 @@
 
 namespace signweave {
 
-/// Parses the rest of like("meteo"@1200..3400, right_hand) after `name`, the word "like". Throws QueryError.
+/// Parses the rest of like("meteo"@1200..3400, right_hand) after `name`, the word "like". Throws SyntaxError.
 Condition parse_example(QueryLexer& in, const QueryToken& name);
 
 }  // namespace signweave

@@ -10,7 +10,7 @@ bool is_quantity(std::string_view word) noexcept;
 /// The words that begin a condition on movement, and "like".
 std::vector<std::string> movement_words();
 
-/// Parses the rest of a condition on movement after `name`; the next token is "(". Throws QueryError.
+/// Parses the rest of a condition on movement after `name`; the next token is "(". Throws SyntaxError.
 Condition parse_movement(QueryLexer& in, const QueryToken& name);
 
 }  // namespace signweave

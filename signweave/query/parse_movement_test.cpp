@@ -79,7 +79,7 @@ TEST(ParseMovement, AWellFormedQueryParsesBackToItself) {
       const PhaseQuery query = parse(row.text);
       EXPECT_EQ(to_string(query), row.normal);
       EXPECT_EQ(parse(to_string(query)), query) << row.text;
-    } catch (const QueryError& error) {
+    } catch (const SyntaxError& error) {
       ADD_FAILURE() << row.text << '\n' << error.what() << '\n' << error.caret;
     }
   }
@@ -212,7 +212,7 @@ TEST(ParseMovement, AFaultIsOneLineWithItsColumn) {
     try {
       parse(row.text);
       ADD_FAILURE() << row.text;
-    } catch (const QueryError& error) {
+    } catch (const SyntaxError& error) {
       EXPECT_EQ(error.code(), ErrorCode::bad_input) << row.text;
       EXPECT_EQ(error.column, row.column) << row.text << '\n' << error.what() << '\n' << error.caret;
       EXPECT_THAT(error.what(), HasSubstr(row.says)) << row.text;
@@ -224,7 +224,7 @@ TEST(ParseMovement, AFaultIsOneLineWithItsColumn) {
 TEST(ParseMovement, AnExampleIsAllowedAmongTheOutermostConditions) {
   EXPECT_NO_THROW(parse("(gloss = A & like(\"m\"@1..2)) & hand = left"));
   EXPECT_NO_THROW(parse("(gloss = A | gloss = B) & like(\"m\"@1..2) overlaps tier(\"X\") = b -> gloss = C"));
-  EXPECT_THROW(parse("(gloss = A | like(\"m\"@1..2)) & hand = left"), QueryError);
+  EXPECT_THROW(parse("(gloss = A | like(\"m\"@1..2)) & hand = left"), SyntaxError);
 }
 
 }  // namespace

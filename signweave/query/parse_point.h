@@ -6,7 +6,7 @@
 /// Internal to this module: a point of the signer in the text of a query.
 namespace signweave {
 
-/// Takes a point. If `sided`, "hand" is not accepted: one of the two hands must be named. Throws QueryError.
+/// Takes a point. If `sided`, "hand" is not accepted: one of the two hands must be named. Throws SyntaxError.
 Point parse_point(QueryLexer& in, bool sided = false);
 
 /// The point of a token that is already taken.

@@ -11,7 +11,7 @@
 namespace signweave {
 
 /// Parses the rest of track(NAME) or gaze(ANGLE) after `name`, with its component. The quantity of `term` must be set.
-/// Throws QueryError.
+/// Throws SyntaxError.
 void parse_series(QueryLexer& in, const QueryToken& name, MovementTerm& term);
 
 /// Takes ".height" as one token if it is next.

@@ -54,7 +54,7 @@ TEST(Parse, AWellFormedQueryParsesBackToItself) {
   };
   for (const Row& row : rows) {
     if (row.normal == nullptr) {
-      EXPECT_THROW(parse(row.text), QueryError) << row.text;
+      EXPECT_THROW(parse(row.text), SyntaxError) << row.text;
       continue;
     }
     const PhaseQuery query = parse(row.text);
@@ -72,10 +72,10 @@ TEST(Parse, AndBindsBeforeOrAndRelationsBeforeArrows) {
   EXPECT_EQ(first.operands[1].kind, Expression::Kind::all);
 }
 
-QueryError fault_in(std::string_view text) {
+SyntaxError fault_in(std::string_view text) {
   try {
     parse(text);
-  } catch (const QueryError& error) {
+  } catch (const SyntaxError& error) {
     return error;
   }
   return {ErrorCode::io, "no fault", 0, 0, ""};
@@ -138,7 +138,7 @@ TEST(Parse, AFaultIsOneLineWithItsColumn) {
       {"gloss = \"\xC3\"", 10, "not UTF-8"},
   };
   for (const Row& row : rows) {
-    const QueryError error = fault_in(row.text);
+    const SyntaxError error = fault_in(row.text);
     EXPECT_EQ(error.code(), ErrorCode::bad_input) << row.text;
     EXPECT_EQ(error.column, row.column) << row.text << '\n' << error.what() << '\n' << error.caret;
     EXPECT_THAT(error.what(), HasSubstr(row.says)) << row.text;
@@ -257,7 +257,7 @@ RC_GTEST_PROP(Parse, AnyTextIsParsedOrRejectedWithAColumnInsideIt, (std::uint32_
   try {
     const PhaseQuery query = parse(text);
     RC_ASSERT(parse(to_string(query)) == query);
-  } catch (const QueryError& error) {
+  } catch (const SyntaxError& error) {
     RC_ASSERT(error.column >= 1U && error.column <= text.size() + 1);
     RC_ASSERT(error.caret.size() > error.caret.find('\n') + 1);
   }

@@ -26,7 +26,7 @@ struct ParsedValue {
   std::string written;  ///< the word or number, without its unit
 };
 
-/// Takes the value after a comparison. Throws QueryError that lists the allowed values if it is not one of them.
+/// Takes the value after a comparison. Throws SyntaxError that lists the allowed values if it is not one of them.
 ParsedValue parse_value(QueryLexer& in, const MovementTerm& term, const AllowedValue& allowed, Compare compare);
 
 /// Takes the rest of enters(right_hand, shoulder) from the comma onwards.

@@ -274,13 +274,17 @@ Plan plan(BoundQuery& query) {
     std::vector<AccessPath> access_paths = access_paths_of(element.matcher);
     const std::size_t rows = rows_of(access_paths);
     const bool on_tier = all_of_tiers(element.matcher, access_paths);
-    offer({e, std::nullopt, std::move(access_paths), rows, is_exact(element.matcher.root()), on_tier});
+    offer({.element = e,
+           .access_paths = std::move(access_paths),
+           .rows = rows,
+           .exact = is_exact(element.matcher.root()),
+           .on_tier = on_tier});
     for (std::size_t r = 0; r < element.relations.size(); ++r) {
       BoundQuery::BoundRelation& relation = element.relations[r];
       if (relation.sequence || relation.places > 1) continue;
       std::vector<AccessPath> around = access_paths_of(*relation.matcher);
       const std::size_t partners = rows_of(around);
-      offer({e, r, std::move(around), partners * kAround, false, false});
+      offer({.element = e, .relation = r, .access_paths = std::move(around), .rows = partners * kAround});
     }
   }
   return std::move(*best);

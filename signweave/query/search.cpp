@@ -312,7 +312,7 @@ void Search::for_partners(std::size_t e, BoundQuery::BoundRelation& relation, Ti
       continue;
     }
     const RowId end = rows->own_end;
-    for (RowId other = first_ending_at_or_after(table_, *rows, span.begin, cursor);
+    for (RowId other = first_with_end_at_or_after(table_, *rows, span.begin, cursor);
          other < end && table_.begin(other) <= span.end; ++other) {
       if (!is_partner(other) || !relation.matcher->accepts_on_tier(other)) continue;
       use(other);

@@ -30,7 +30,7 @@ std::vector<std::string> answers_in(std::string_view text, const Segments& segme
 std::string fault_of(std::string_view text) {
   try {
     parse(text);
-  } catch (const QueryError& error) {
+  } catch (const SyntaxError& error) {
     return error.what();
   }
   return "none";

@@ -24,10 +24,10 @@ TEST(BodySurface, PointsInTheChestMoveOutForwardAndStayOut) {
   for (int k = -5; k <= 5; ++k) {
     const float x = 0.02f * static_cast<float>(k);
     const Vector3f inside = body.shoulders() + Vector3f(x, -0.15f, 0.10f);
-    const Vector3f way = body.surface.push_out(inside, 0.01f);
-    EXPECT_GT(way.z(), 0.02f) << x;
-    EXPECT_EQ(way.y(), 0) << x;
-    EXPECT_LT(body.surface.push_out(inside + way, 0.01f).norm(), 0.004f) << x;
+    const Vector3f push = body.surface.push_out(inside, 0.01f);
+    EXPECT_GT(push.z(), 0.02f) << x;
+    EXPECT_EQ(push.y(), 0) << x;
+    EXPECT_LT(body.surface.push_out(inside + push, 0.01f).norm(), 0.004f) << x;
   }
 }
 

@@ -17,8 +17,8 @@ constexpr float kLeastRatio = 0.88f;
 constexpr float kMostRatio = 1.14f;
 /// An arm that would be extended beyond the first fraction of its length takes the source's extension, fully at the
 /// second.
-constexpr float kStretchFrom = 0.90f;
-constexpr float kStretchTo = 1.0f;
+constexpr float kExtendedFrom = 0.90f;
+constexpr float kExtendedTo = 1.0f;
 /// A foot closer to its goal than the first distance is not moved; beyond the second it is moved fully. Metres.
 constexpr float kFootFrom = 0.0005f;
 constexpr float kFootTo = 0.004f;
@@ -211,8 +211,8 @@ void Retargeter::solve_legs() noexcept {
 void Retargeter::solve_arms() noexcept {
   const Skeleton& skeleton = *character_->skeleton;
   std::array<std::optional<TwoHands>, 2> hands;
-  PlacedBody source = {&signer_.rig, &from_, signer_.body ? &*signer_.body : nullptr, {}};
-  PlacedBody own = {&character_->rig, &to_, character_->body ? &*character_->body : nullptr, {}};
+  PlacedBody source = {.rig = &signer_.rig, .pose = &from_, .body = signer_.body ? &*signer_.body : nullptr};
+  PlacedBody own = {.rig = &character_->rig, .pose = &to_, .body = character_->body ? &*character_->body : nullptr};
   if (options_.place_hands) {
     source.space = signer_space(*source.body, *source.rig, from_);
     own.space = space_;
@@ -246,7 +246,7 @@ void Retargeter::solve_arms() noexcept {
                              position_of(signer_.rig[of(side, Part::left_upper_arm)], from_);
       const float extension = arm.norm() / arms_[i]->length();
       const float source_extension = shown.norm() / std::max(arm_length(source_axes_, signer_.rig, side), 1e-3f);
-      const float weight = smooth_step(extension, kStretchFrom, kStretchTo);
+      const float weight = smooth_step(extension, kExtendedFrom, kExtendedTo);
       const float kept = (1 - weight) * std::min(extension, 1.0f) + weight * std::min(source_extension, 1.0f);
       if (extension > 1e-3f) *goals.wrists[i] = shoulder + arm * (kept / extension);
       *goals.wrists[i] = out_of_body(*hands[i], to_, surface_, *goals.wrists[i]);

@@ -176,7 +176,7 @@ TEST(Retarget, HandsStayOutOfTheChest) {
   const auto skeleton = whole_person();
   Motion motion(skeleton, {30, 1}, 30);
   // The upper arm hangs; the forearm crosses the trunk, too close to it, and rises.
-  const auto to = [](const Vector3f& way) { return Quaternionf::FromTwoVectors(Vector3f::UnitX(), way); };
+  const auto to = [](const Vector3f& direction) { return Quaternionf::FromTwoVectors(Vector3f::UnitX(), direction); };
   for (std::int64_t frame = 0; frame < 30; ++frame) {
     const MutablePoseView pose = motion.pose(frame);
     const Quaternionf upper = to({0.35f, -0.9f, -0.1f});

@@ -3,9 +3,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
-#include <utility>
 #include <vector>
 
+#include "signweave/annotation/declarations.h"
 #include "signweave/annotation/sign.h"
 #include "signweave/core/error.h"
 #include "signweave/core/time.h"
@@ -62,9 +62,7 @@ struct Synthesis {
   std::vector<Junction> junctions;  ///< [clip − 1]
   std::vector<PlacedSign> signs;    ///< in time order
   std::vector<Notice> notices;
-  /// Properties "signweave:…" of the sources' documents that must be passed on, such as that a demo's shapes are
-  /// placeholders. Unique pairs of name and value.
-  std::vector<std::pair<std::string, std::string>> declarations;
+  Declarations declarations;  ///< of the source recordings: sorted, each once
 };
 
 }  // namespace signweave

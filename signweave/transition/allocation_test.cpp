@@ -3,12 +3,12 @@
 #include <gtest/gtest.h>
 
 #include "signweave/core/test_allocations.h"
-#include "signweave/transition/test_way.h"
+#include "signweave/transition/test_gap_motion.h"
 
 namespace signweave {
 namespace {
 
-using namespace testing_way;
+using namespace testing_gap;
 
 TEST(Allocation, TheSecondGapAllocatesNothing) {
   const Motion motion = lively(1.5);

@@ -5,12 +5,12 @@
 
 #include <cmath>
 
-#include "signweave/transition/test_way.h"
+#include "signweave/transition/test_gap_motion.h"
 
 namespace signweave {
 namespace {
 
-using namespace testing_way;
+using namespace testing_gap;
 
 constexpr ArmJoints kArm{kUpper, kFore, kHand};
 constexpr float kLengthOfUpper = 0.3f;

@@ -7,12 +7,12 @@
 
 #include "signweave/transition/curve_loops.h"
 #include "signweave/transition/kriging.h"
-#include "signweave/transition/test_way.h"
+#include "signweave/transition/test_gap_motion.h"
 
 namespace signweave {
 namespace {
 
-using namespace testing_way;
+using namespace testing_gap;
 
 TEST(Curves, RotationVectorsRoundTrip) {
   for (const double angle : {0.0, 1e-9, 1e-4, 1.0, std::numbers::pi - 1e-4, std::numbers::pi, 5.0, 6.2}) {

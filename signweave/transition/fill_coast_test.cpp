@@ -3,12 +3,12 @@
 #include <cmath>
 
 #include "signweave/transition/method.h"
-#include "signweave/transition/test_way.h"
+#include "signweave/transition/test_gap_motion.h"
 
 namespace signweave {
 namespace {
 
-using testing_way::angle;
+using testing_gap::angle;
 
 std::shared_ptr<const Skeleton> skeleton() {
   return std::make_shared<const Skeleton>(std::vector<Joint>{{"Hips", kNoJoint, {0, 1, 0}, true},

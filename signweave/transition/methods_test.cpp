@@ -10,7 +10,7 @@
 #include <string>
 #include <thread>
 
-#include "signweave/transition/test_way.h"
+#include "signweave/transition/test_gap_motion.h"
 
 namespace signweave {
 
@@ -20,7 +20,7 @@ void PrintTo(const GapMethod& method, std::ostream* out) {
 
 namespace {
 
-using namespace testing_way;
+using namespace testing_gap;
 
 const GapMethod& method_of(std::string_view name) {
   const GapMethod* method = find_gap_method(name);

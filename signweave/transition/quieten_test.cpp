@@ -7,12 +7,12 @@
 #include <algorithm>
 #include <random>
 
-#include "signweave/transition/test_way.h"
+#include "signweave/transition/test_gap_motion.h"
 
 namespace signweave {
 namespace {
 
-using namespace testing_way;
+using namespace testing_gap;
 
 /// The angle between a method's result in a noisy motion and the motion without noise, in degrees; the mean over
 /// joints, frames and gaps.
@@ -35,13 +35,13 @@ double error_of(std::string_view method, double radians, bool known, double rate
         q = (q * turn).normalized();
       }
     }
-    CaptureNoise noise{std::vector<float>(testing_way::kJoints, static_cast<float>(radians)), {0.0f}};
+    CaptureNoise noise{std::vector<float>(testing_gap::kJoints, static_cast<float>(radians)), {0.0f}};
     const auto first = static_cast<std::int64_t>(0.8 * rate);
     Gap gap = cut(shaken, of, {first, first + static_cast<std::int64_t>(0.4 * rate)});
     if (known) gap.noise_before = gap.noise_after = &noise;
     const Filled made = fill(*find_gap_method(method), gap, TransitionModel{}, scratch);
     for (std::int64_t frame = 0; frame < gap.count; ++frame) {
-      for (std::size_t joint = 0; joint < testing_way::kJoints; ++joint) {
+      for (std::size_t joint = 0; joint < testing_gap::kJoints; ++joint) {
         if (of.roles[joint] == JointRole::finger) continue;  // fingers are brought to rest, but these keep swinging
         sum += static_cast<double>(made.at(frame, joint).angularDistance(clean.pose(first + frame).rotations[joint]));
         ++count;
@@ -68,7 +68,7 @@ TEST(Quieten, ANoisyCaptureIsFollowedLikeACleanOne) {
 TEST(Quieten, WithoutNoiseNothingChanges) {
   const JointGroups of = groups();
   const Motion motion = lively(1);
-  const CaptureNoise silent{std::vector<float>(testing_way::kJoints, 0.0f), {0.0f}};
+  const CaptureNoise silent{std::vector<float>(testing_gap::kJoints, 0.0f), {0.0f}};
   for (const GapMethod& method : gap_methods()) {
     GapScratch scratch;
     Gap gap = cut(motion, of, {100, 140});
@@ -85,7 +85,7 @@ TEST(Quieten, WithoutNoiseNothingChanges) {
 TEST(Quieten, GeneratedFramesStillMeetTheCapturedOnes) {
   const JointGroups of = groups();
   Motion motion = lively(2);
-  const CaptureNoise noise{std::vector<float>(testing_way::kJoints, 0.02f), {0.01f}};
+  const CaptureNoise noise{std::vector<float>(testing_gap::kJoints, 0.02f), {0.01f}};
   std::mt19937 random(3);
   std::normal_distribution<float> normal;
   for (std::int64_t frame = 0; frame < motion.frame_count(); ++frame) {
@@ -99,7 +99,7 @@ TEST(Quieten, GeneratedFramesStillMeetTheCapturedOnes) {
   Gap gap = cut(motion, of, {100, 160});
   gap.noise_before = gap.noise_after = &noise;
   const Filled made = fill(*find_gap_method("kriging"), gap, TransitionModel{}, scratch);
-  for (std::size_t joint = 0; joint < testing_way::kJoints; ++joint) {
+  for (std::size_t joint = 0; joint < testing_gap::kJoints; ++joint) {
     // The rotation of a joint in a frame, plus the fading of the offset in one.
     EXPECT_LT(made.at(0, joint).angularDistance(gap.left().rotations[joint]), 0.06f) << joint;
     EXPECT_LT(made.at(59, joint).angularDistance(gap.right().rotations[joint]), 0.06f) << joint;

@@ -9,12 +9,12 @@
 #include "signweave/transition/fill.h"
 #include "signweave/transition/learned.h"
 #include "signweave/transition/movements.h"
-#include "signweave/transition/test_way.h"
+#include "signweave/transition/test_gap_motion.h"
 
 namespace signweave {
 namespace {
 
-using namespace testing_way;
+using namespace testing_gap;
 using Eigen::Quaternionf;
 using Eigen::Vector3f;
 

@@ -5,12 +5,12 @@
 #include <cstring>
 #include <limits>
 
-#include "signweave/transition/test_way.h"
+#include "signweave/transition/test_gap_motion.h"
 
 namespace signweave {
 namespace {
 
-using namespace testing_way;
+using namespace testing_gap;
 
 const GapMethod& known_method(std::string_view name) {
   return *find_gap_method(name);

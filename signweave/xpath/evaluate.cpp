@@ -13,7 +13,6 @@
 #include <new>
 #include <thread>
 
-#include "signweave/query/parse.h"
 #include "signweave/xpath/tokens.h"
 #include "signweave/xpath/tree.h"
 

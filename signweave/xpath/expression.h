@@ -15,8 +15,8 @@ struct Excerpt {
   friend bool operator==(const Excerpt&, const Excerpt&) = default;
 };
 
-/// A checked expression: it uses only words and functions of XPath. Throws QueryError (query/parse.h), with a caret
-/// under the error and a hint, if it does not, and for more than 64 KiB or 100 levels of nesting.
+/// A checked expression: it uses only words and functions of XPath. Throws SyntaxError (core/syntax_error.h), with a
+/// caret under the error and a hint, if it does not, and for more than 64 KiB or 100 levels of nesting.
 class Expression {
  public:
   explicit Expression(std::string text);

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
+#include "signweave/core/syntax_error.h"
 #include "signweave/core/text.h"
-#include "signweave/query/parse.h"
 
 namespace signweave::xpath {
 namespace {
@@ -26,34 +26,25 @@ bool ends_operand(const Token& token) {
   return token.is(")") || token.is("]") || token.is(".") || token.is("..") || token.is("*");
 }
 
-std::size_t letters(std::string_view text) {
-  return static_cast<std::size_t>(
-      std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; }));
-}
-
 }  // namespace
 
 void fail(std::string_view expression, std::size_t offset, const std::string& what) {
-  offset = std::min(offset, expression.size());
-  const std::string_view before = expression.substr(0, offset);
-  const std::size_t line = 1 + static_cast<std::size_t>(std::count(before.begin(), before.end(), '\n'));
-  const std::size_t begin = before.rfind('\n') == before.npos ? 0 : before.rfind('\n') + 1;
-  std::string_view shown = expression.substr(begin, expression.find('\n', begin) - begin);
-  const std::size_t column = letters(before.substr(begin));
+  const TextPosition at = position_in(expression, offset);
+  std::string_view shown = at.line_text;
   constexpr std::size_t kMost = 200;  // a long line is cut
   std::string caret;
   if (shown.size() <= kMost) {
-    caret = std::string(shown) + '\n' + std::string(column, ' ') + '^';
+    caret = std::string(shown) + '\n' + std::string(at.column - 1, ' ') + '^';
   } else {
-    std::size_t from = offset - begin > kMost / 2 ? offset - begin - kMost / 2 : 0;
+    std::size_t from = at.offset > kMost / 2 ? at.offset - kMost / 2 : 0;
     while (from > 0 && (static_cast<unsigned char>(shown[from]) & 0xC0) == 0x80) --from;
-    const std::size_t width = letters(shown.substr(from, offset - begin - from));
+    const std::size_t width = count_characters(shown.substr(from, at.offset - from));
     shown = shown.substr(from, kMost);
     while (!shown.empty() && !is_utf8(shown)) shown.remove_suffix(1);
     caret = std::string(shown) + '\n' + std::string(width, ' ') + '^';
   }
-  throw QueryError(ErrorCode::bad_input, fmt::format("xpath:{}:{}: {}", line, column + 1, what), line, column + 1,
-                   std::move(caret));
+  throw SyntaxError(ErrorCode::bad_input, fmt::format("xpath:{}:{}: {}", at.line, at.column, what), at.line, at.column,
+                    std::move(caret));
 }
 
 std::vector<Token> tokens_of(std::string_view text) {

@@ -23,10 +23,10 @@ struct Token {
   bool is(std::string_view symbol) const noexcept { return kind == Kind::symbol && text == symbol; }
 };
 
-/// Splits an expression into tokens. Throws QueryError for an unclosed quote and for a character that begins no token.
+/// Splits an expression into tokens. Throws SyntaxError for an unclosed quote and for a character that begins no token.
 std::vector<Token> tokens_of(std::string_view text);
 
-/// Throws QueryError with a caret under the error.
+/// Throws SyntaxError with a caret under the error.
 [[noreturn]] void fail(std::string_view expression, std::size_t offset, const std::string& what);
 
 }  // namespace signweave::xpath

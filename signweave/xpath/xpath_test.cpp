@@ -4,7 +4,7 @@
 
 #include <thread>
 
-#include "signweave/query/parse.h"
+#include "signweave/core/syntax_error.h"
 #include "signweave/xpath/evaluate.h"
 
 namespace signweave::xpath {
@@ -77,7 +77,7 @@ TEST(XPath, EntitiesAndFilesAreNotRead) {
       "<!DOCTYPE a [<!ENTITY b \"x\"><!ENTITY c \"&b;&b;\"><!ENTITY d SYSTEM \"file:///etc/passwd\">]>"
       "<a>&c;&d;</a>";
   EXPECT_EQ(all("string(/a)", bomb).at(0).value, "&c;&d;");
-  EXPECT_THROW(Expression("document('/etc/passwd')"), QueryError) << "XSLT's, not XPath's";
+  EXPECT_THROW(Expression("document('/etc/passwd')"), SyntaxError) << "XSLT's, not XPath's";
 }
 
 TEST(XPath, LimitsAreRespected) {
@@ -111,7 +111,7 @@ TEST_P(XPathWrong, IsReportedWithItsPosition) {
   try {
     all(GetParam().text);
     FAIL() << "was answered";
-  } catch (const QueryError& error) {
+  } catch (const SyntaxError& error) {
     EXPECT_EQ(error.code(), ErrorCode::bad_input);
     EXPECT_EQ(std::string(error.what()), fmt::format("xpath:1:{}: {}", GetParam().column, GetParam().what));
     EXPECT_EQ(error.caret, fmt::format("{}\n{}^", GetParam().text, std::string(GetParam().column - 1, ' ')));
@@ -134,10 +134,10 @@ INSTANTIATE_TEST_SUITE_P(
 TEST(XPath, GrammarErrorsAreRejectedBeforeAnythingIsRead) {
   for (const char* text :
        {"//", "//TIER[", "//TIER[]", "1 +", "//@", "/..//[1]", "count()", "a::b", "//TIER/", "!", "()"}) {
-    EXPECT_THROW(all(text), QueryError) << text;
+    EXPECT_THROW(all(text), SyntaxError) << text;
   }
   for (const char* text : {"count('a')", "'a' | //TIER", "nothing:x", "string(1, 2)", "sum(1)"}) {
-    EXPECT_THROW(all(text), QueryError) << text;
+    EXPECT_THROW(all(text), SyntaxError) << text;
   }
 }
 
@@ -148,7 +148,7 @@ TEST(XPath, NestingIsBounded) {
     if (depth <= 100) {
       EXPECT_EQ(values(text), std::vector<std::string>{"1"}) << depth;
     } else {
-      EXPECT_THROW(all(text), QueryError) << depth;
+      EXPECT_THROW(all(text), SyntaxError) << depth;
     }
   }
   std::string steps;
@@ -157,9 +157,9 @@ TEST(XPath, NestingIsBounded) {
   std::string minus(4000, '-');
   try {
     all(minus + "1");
-  } catch (const QueryError&) {
+  } catch (const SyntaxError&) {
   }
-  EXPECT_THROW(all(std::string(100'000, ' ') + "1"), QueryError);
+  EXPECT_THROW(all(std::string(100'000, ' ') + "1"), SyntaxError);
 }
 
 std::string excerpt(const std::string& text) {

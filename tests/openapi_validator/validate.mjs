@@ -24,8 +24,8 @@ for (const [path, item] of Object.entries(document.paths ?? {})) {
     if (ids.has(operation.operationId)) faults.push(`${method} ${path}: the id ${operation.operationId} is used twice`);
     ids.add(operation.operationId);
     const inPath = [...path.matchAll(/\{(\w+)\}/g)].map((match) => match[1]).sort().join();
-    const told = (operation.parameters ?? []).filter((p) => p.in === 'path').map((p) => p.name).sort().join();
-    if (inPath !== told) faults.push(`${method} ${path}: its parameters in the path are '${told}'`);
+    const declared = (operation.parameters ?? []).filter((p) => p.in === 'path').map((p) => p.name).sort().join();
+    if (inPath !== declared) faults.push(`${method} ${path}: its parameters in the path are '${declared}'`);
   }
 }
 

@@ -21,7 +21,7 @@
 #include "signweave/core/error.h"
 #include "signweave/database/database.h"
 #include "signweave/live/player.h"
-#include "signweave/score/score_json.h"
+#include "signweave/notation/score_json.h"
 
 namespace {
 

@@ -21,12 +21,12 @@ namespace fs = std::filesystem;
 constexpr std::string_view kWanted = "an ANVIL file";
 
 std::string mime_type(std::string_view element, std::string_view url) {
-  const std::string ending = fold_case(fs::path(std::string(url)).extension().string());
+  const std::string extension = fold_case(fs::path(std::string(url)).extension().string());
   constexpr std::pair<std::string_view, std::string_view> kKnown[] = {
       {".mp4", "video/mp4"},       {".mpg", "video/mpeg"},  {".mpeg", "video/mpeg"}, {".mov", "video/quicktime"},
       {".avi", "video/x-msvideo"}, {".wav", "audio/x-wav"}, {".mp3", "audio/mpeg"}};
   for (const auto& [known, type] : kKnown) {
-    if (ending == known) return std::string(type);
+    if (extension == known) return std::string(type);
   }
   return element == "audio" ? "audio/unknown" : element == "video" ? "video/unknown" : "unknown";
 }

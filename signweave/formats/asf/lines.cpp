@@ -77,7 +77,7 @@ double number_of(std::string_view word, const Lines& lines, std::string_view wha
     lines.fail(fmt::format("{} is too large, expected {}", in_quotes(word), what));
   }
   if (!std::isfinite(value)) {
-    lines.fail(fmt::format("expected {}, found {}, which is no finite number", what, in_quotes(word)));
+    lines.fail(fmt::format("expected {}, found {}, which is not a finite number", what, in_quotes(word)));
   }
   if (std::abs(value) > kLargestNumber) {
     lines.fail(fmt::format("{:g} is too large for {}; values beyond {:g} are not accepted as measurements", value, what,

@@ -42,13 +42,16 @@ std::uint64_t number_of(std::string_view id) {
   return error == std::errc() && end == id.data() + id.size() ? number : 0;
 }
 
-std::uint64_t last_number(const AnnotationDocument& document) {
+std::uint64_t last_number(const AnnotationDocument& document, const FileParts* old) {
   std::uint64_t last = 0;
   for (const Tier& tier : document.tiers) {
     for (const Annotation& one : tier.annotations) last = std::max(last, number_of(one.id));
   }
   for (const auto& [name, value] : document.properties) {
     if (name == kLastUsedAnnotationId) last = std::max(last, number_of("a" + value));
+  }
+  for (std::size_t t = 0; old != nullptr && t < old->tiers.size(); ++t) {
+    for (const FileAnnotation& one : old->tiers[t].left_out) last = std::max(last, number_of(one.annotation.id));
   }
   return last;
 }
@@ -92,6 +95,130 @@ void check_annotation(const Tier& tier, const Annotation& one, Stereotype stereo
   if (is_symbolic(stereotype) && one.parent.empty()) {
     refuse(tier, fmt::format("annotation '{}' has no parent, from which it would take its time; give it one",
                              printable(one.id)));
+  }
+}
+
+/// What the file of a document already has and a new document may not: it is not refused again.
+struct FileOddities {
+  std::unordered_set<std::string_view> tiers;        ///< without parent or type
+  std::unordered_set<std::string_view> annotations;  ///< with slots
+  std::unordered_set<std::string_view> left_out;     ///< annotations in the file that are not in the document
+};
+
+FileOddities oddities_of(const FileParts* old) {
+  FileOddities odd;
+  for (std::size_t t = 0; old != nullptr && t < old->tiers.size(); ++t) {
+    const FileTier& tier = old->tiers[t];
+    if (tier.parent == kNone || tier.tier.type.empty()) odd.tiers.insert(tier.tier.id);
+    for (const FileAnnotation& one : tier.annotations) {
+      if (one.has_slots()) odd.annotations.insert(one.annotation.id);
+    }
+    for (const FileAnnotation& one : tier.left_out) odd.left_out.insert(one.annotation.id);
+  }
+  return odd;
+}
+
+struct DocumentNames {
+  std::unordered_map<std::string, std::size_t> tiers;  ///< index of a tier
+  std::unordered_map<std::string, Stereotype> types;
+};
+
+/// Throws for two tiers or types of one name, or one without a name.
+DocumentNames names_of(const AnnotationDocument& document) {
+  DocumentNames names;
+  for (const TierType& type : document.types) {
+    if (type.id.empty() || !names.types.emplace(type.id, type.stereotype).second) {
+      throw Error(ErrorCode::bad_input, fmt::format("tier type '{}': {}; give it an id of its own", printable(type.id),
+                                                    type.id.empty() ? "has no id" : "occurs twice"));
+    }
+  }
+  for (std::size_t i = 0; i < document.tiers.size(); ++i) {
+    const Tier& tier = document.tiers[i];
+    if (tier.id.empty()) refuse(tier, "has no name; give it one");
+    if (!names.tiers.emplace(tier.id, i).second) refuse(tier, "occurs twice; give one of them another name");
+  }
+  return names;
+}
+
+/// Adds the parent and the stereotype of the next tier.
+void check_tier(const Tier& tier, const DocumentNames& names, const FileOddities& odd, CheckedDocument& checked) {
+  const auto parent = names.tiers.find(tier.parent);
+  if (!tier.parent.empty() && parent == names.tiers.end()) {
+    refuse(tier, fmt::format("has the parent '{}', which is not a tier; name one that is", printable(tier.parent)));
+  }
+  checked.parents.push_back(tier.parent.empty() ? kNone : parent->second);
+  const auto type = names.types.find(tier.type);
+  const Stereotype stereotype = type == names.types.end() ? Stereotype::none : type->second;
+  const bool is_odd = odd.tiers.contains(tier.id);
+  if (tier.type.empty() && !is_odd) refuse(tier, "has no type; give it one");
+  if (tier.parent.empty() && is_symbolic(stereotype) && !is_odd) {
+    refuse(tier, fmt::format("has no parent, though its type '{}' needs one; give it one", printable(tier.type)));
+  }
+  const bool unknown = type == names.types.end() && !tier.parent.empty();
+  checked.stereotypes.push_back(unknown ? Stereotype::included_in : stereotype);
+}
+
+/// Declares the types of tiers that the document does not declare, unless the file uses them undeclared.
+void declare_types(const DocumentNames& names, const FileParts* old, CheckedDocument& checked) {
+  std::unordered_set<std::string> undeclared;
+  for (const Tier& tier : checked.document.tiers) {
+    if (!tier.type.empty() && !names.types.contains(tier.type)) undeclared.insert(tier.type);
+  }
+  for (std::size_t t = 0; old != nullptr && t < old->tiers.size(); ++t) undeclared.erase(old->tiers[t].tier.type);
+  for (std::size_t t = 0; t < checked.document.tiers.size(); ++t) {
+    const std::string& type = checked.document.tiers[t].type;
+    if (undeclared.erase(type) > 0) checked.document.types.push_back({type, checked.stereotypes[t], {}});
+  }
+}
+
+/// Where an annotation is in its document.
+struct AnnotationPlace {
+  std::size_t tier = 0;
+  std::size_t index = 0;  ///< on its tier
+};
+using AnnotationPlaces = std::unordered_map<std::string, AnnotationPlace>;  ///< by the annotation's id
+
+/// Gives ids to the annotations that have none, and checks all.
+AnnotationPlaces number_annotations(const FileOddities& odd, CheckedDocument& checked) {
+  AnnotationPlaces places;
+  for (std::size_t t = 0; t < checked.document.tiers.size(); ++t) {
+    Tier& tier = checked.document.tiers[t];
+    for (std::size_t i = 0; i < tier.annotations.size(); ++i) {
+      Annotation& one = tier.annotations[i];
+      if (one.id.empty()) one.id = fmt::format("a{}", ++checked.last_id);
+      const bool had_slots = odd.annotations.contains(one.id);
+      check_annotation(tier, one, had_slots ? Stereotype::none : checked.stereotypes[t]);
+      if (odd.left_out.contains(one.id)) {
+        refuse(tier, fmt::format("the file has an annotation '{}' that was left out; give this one another id",
+                                 printable(one.id)));
+      }
+      if (!places.emplace(one.id, AnnotationPlace{t, i}).second) {
+        refuse(tier, fmt::format("annotation '{}' occurs twice; give one of them another id", printable(one.id)));
+      }
+    }
+  }
+  return places;
+}
+
+/// Finds the parent of each annotation on the parent tier.
+void find_parents(const AnnotationPlaces& places, CheckedDocument& checked) {
+  checked.parent_annotations.resize(checked.document.tiers.size());
+  for (std::size_t t = 0; t < checked.document.tiers.size(); ++t) {
+    const Tier& tier = checked.document.tiers[t];
+    for (const Annotation& one : tier.annotations) {
+      std::size_t index = kNone;
+      if (!one.parent.empty()) {
+        const auto found = places.find(one.parent);
+        if (found == places.end() || found->second.tier != checked.parents[t]) {
+          refuse(tier,
+                 fmt::format("annotation '{}' has the parent '{}', which is not on the parent tier; name one that "
+                             "is, or remove it too",
+                             printable(one.id), printable(one.parent)));
+        }
+        index = found->second.index;
+      }
+      checked.parent_annotations[t].push_back(index);
+    }
   }
 }
 
@@ -186,103 +313,20 @@ std::string vocabulary_element(std::string_view id) {
 
 CheckedDocument check(AnnotationDocument document, const FileParts* old) {
   CheckedDocument checked;
-  checked.last_id = last_number(document);
-  for (std::size_t t = 0; old != nullptr && t < old->tiers.size(); ++t) {
-    for (const FileAnnotation& one : old->tiers[t].left_out) {
-      checked.last_id = std::max(checked.last_id, number_of(one.annotation.id));
-    }
-  }
-  std::unordered_map<std::string_view, std::size_t> tiers;
-  std::unordered_map<std::string_view, Stereotype> types;
-  for (const TierType& type : document.types) {
-    if (type.id.empty() || !types.emplace(type.id, type.stereotype).second) {
-      throw Error(ErrorCode::bad_input, fmt::format("tier type '{}': {}; give it an id of its own", printable(type.id),
-                                                    type.id.empty() ? "has no id" : "occurs twice"));
-    }
-  }
-  for (std::size_t i = 0; i < document.tiers.size(); ++i) {
-    const Tier& tier = document.tiers[i];
-    if (tier.id.empty()) refuse(tier, "has no name; give it one");
-    if (!tiers.emplace(tier.id, i).second) refuse(tier, "occurs twice; give one of them another name");
-  }
-  // Tiers without parent or type, and annotations with slots, that are already in the file.
-  std::unordered_set<std::string_view> odd;
-  std::unordered_set<std::string_view> odd_annotations;
-  std::unordered_set<std::string_view> left_out;  // in the file, not in the document
-  for (std::size_t t = 0; old != nullptr && t < old->tiers.size(); ++t) {
-    const FileTier& tier = old->tiers[t];
-    if (tier.parent == kNone || tier.tier.type.empty()) odd.insert(tier.tier.id);
-    for (const FileAnnotation& one : tier.annotations) {
-      if (one.has_slots()) odd_annotations.insert(one.annotation.id);
-    }
-    for (const FileAnnotation& one : tier.left_out) left_out.insert(one.annotation.id);
-  }
-  std::unordered_set<std::string_view> undeclared;
-  for (const Tier& tier : document.tiers) {
-    const auto parent = tiers.find(tier.parent);
-    if (!tier.parent.empty() && parent == tiers.end()) {
-      refuse(tier, fmt::format("has the parent '{}', which is not a tier; name one that is", printable(tier.parent)));
-    }
-    checked.parents.push_back(tier.parent.empty() ? kNone : parent->second);
-    const auto type = types.find(tier.type);
-    const Stereotype stereotype = type == types.end() ? Stereotype::none : type->second;
-    if (tier.type.empty() && !odd.contains(tier.id)) refuse(tier, "has no type; give it one");
-    if (tier.parent.empty() && is_symbolic(stereotype) && !odd.contains(tier.id)) {
-      refuse(tier, fmt::format("has no parent, though its type '{}' needs one; give it one", printable(tier.type)));
-    }
-    const bool unknown = type == types.end() && !tier.parent.empty();
-    checked.stereotypes.push_back(unknown ? Stereotype::included_in : stereotype);
-    if (type == types.end() && !tier.type.empty()) undeclared.insert(tier.type);
-  }
-  for (std::size_t t = 0; old != nullptr && t < old->tiers.size(); ++t) undeclared.erase(old->tiers[t].tier.type);
-  for (std::size_t t = 0; t < document.tiers.size(); ++t) {
-    const std::string& type = document.tiers[t].type;
-    if (undeclared.erase(type) > 0) document.types.push_back({type, checked.stereotypes[t], {}});
-  }
-
-  std::unordered_map<std::string, std::size_t> places;  // annotation -> index on its tier
-  std::unordered_map<std::string, std::size_t> tier_of;
+  checked.document = std::move(document);
+  checked.last_id = last_number(checked.document, old);
   const std::uint64_t before = checked.last_id;
-  for (std::size_t t = 0; t < document.tiers.size(); ++t) {
-    Tier& tier = document.tiers[t];
-    for (std::size_t i = 0; i < tier.annotations.size(); ++i) {
-      Annotation& one = tier.annotations[i];
-      if (one.id.empty()) one.id = fmt::format("a{}", ++checked.last_id);
-      const bool had_slots = odd_annotations.contains(one.id);
-      check_annotation(tier, one, had_slots ? Stereotype::none : checked.stereotypes[t]);
-      if (left_out.contains(one.id)) {
-        refuse(tier, fmt::format("the file has an annotation '{}' that was left out; give this one another id",
-                                 printable(one.id)));
-      }
-      if (!places.emplace(one.id, i).second) {
-        refuse(tier, fmt::format("annotation '{}' occurs twice; give one of them another id", printable(one.id)));
-      }
-      tier_of.emplace(one.id, t);
-    }
-  }
-  checked.parent_annotations.resize(document.tiers.size());
-  for (std::size_t t = 0; t < document.tiers.size(); ++t) {
-    for (const Annotation& one : document.tiers[t].annotations) {
-      std::size_t place = kNone;
-      if (!one.parent.empty()) {
-        const auto found = places.find(one.parent);
-        if (found == places.end() || tier_of.at(one.parent) != checked.parents[t]) {
-          refuse(document.tiers[t],
-                 fmt::format("annotation '{}' has the parent '{}', which is not on the parent tier; name one that is, "
-                             "or remove it too",
-                             printable(one.id), printable(one.parent)));
-        }
-        place = found->second;
-      }
-      checked.parent_annotations[t].push_back(place);
-    }
-  }
+  const FileOddities odd = oddities_of(old);
+  const DocumentNames names = names_of(checked.document);
+  for (const Tier& tier : checked.document.tiers) check_tier(tier, names, odd, checked);
+  declare_types(names, old, checked);
+  const AnnotationPlaces places = number_annotations(odd, checked);
+  find_parents(places, checked);
   if (checked.last_id != before) {
-    for (auto& [name, value] : document.properties) {
+    for (auto& [name, value] : checked.document.properties) {
       if (name == kLastUsedAnnotationId) value = fmt::format("{}", checked.last_id);
     }
   }
-  checked.document = std::move(document);
   checked.tier_order = parents_first(checked);
   return checked;
 }

@@ -69,14 +69,14 @@ std::string to_utf8(std::string_view bytes, Encoding encoding) {
 Encoding encoding_by_bytes(std::string_view bytes) {
   const auto starts = [&](std::string_view with) { return bytes.starts_with(with); };
   using namespace std::string_view_literals;
-  if (starts("\xFF\xFE\0\0"sv)) return {4, false, 4};
-  if (starts("\0\0\xFE\xFF"sv)) return {4, true, 4};
-  if (starts("\xFF\xFE"sv)) return {2, false, 2};
-  if (starts("\xFE\xFF"sv)) return {2, true, 2};
-  if (starts("<\0\0\0"sv)) return {4, false, 0};
-  if (starts("\0\0\0<"sv)) return {4, true, 0};
-  if (starts("<\0"sv)) return {2, false, 0};
-  if (starts("\0<"sv)) return {2, true, 0};
+  if (starts("\xFF\xFE\0\0"sv)) return {.width = 4, .mark = 4};
+  if (starts("\0\0\xFE\xFF"sv)) return {.width = 4, .big_endian = true, .mark = 4};
+  if (starts("\xFF\xFE"sv)) return {.width = 2, .mark = 2};
+  if (starts("\xFE\xFF"sv)) return {.width = 2, .big_endian = true, .mark = 2};
+  if (starts("<\0\0\0"sv)) return {.width = 4};
+  if (starts("\0\0\0<"sv)) return {.width = 4, .big_endian = true};
+  if (starts("<\0"sv)) return {.width = 2};
+  if (starts("\0<"sv)) return {.width = 2, .big_endian = true};
   return {};
 }
 
@@ -139,7 +139,7 @@ void Xml::decode(std::string_view bytes, std::string_view wanted) {
   }
   Encoding encoding = encoding_by_bytes(bytes);
   const std::string declared = encoding.width == 0 ? declared_encoding(bytes) : std::string();
-  if (declared == "iso-8859-1" || declared == "latin1" || declared == "latin-1") encoding = {1, false, 0};
+  if (declared == "iso-8859-1" || declared == "latin1" || declared == "latin-1") encoding = {.width = 1};
   if (encoding.width != 0) {
     converted_ = to_utf8(bytes, encoding);
     text_ = converted_;

@@ -235,7 +235,7 @@ TEST(FbxRead, NodesWithOneNameStayDistinct) {
   EXPECT_NEAR(pose.rotations[1].angularDistance(Eigen::Quaternionf::Identity()) * 180 / 3.14159f, 50, 1e-3);
 }
 
-TEST(FbxRead, AScaleThatStretchesBonesIsRefusedWithItsNode) {
+TEST(FbxRead, AScaleThatLengthensBonesIsRefusedWithItsNode) {
   TestFile file = two_bones();
   file.nodes[0].scaling = Vector3d(1, 2, 1);
   EXPECT_THAT(fbx_fault(test::text_of(file)),

@@ -2,17 +2,15 @@
 
 #include <string>
 #include <string_view>
-#include <utility>
-#include <vector>
 
+#include "signweave/annotation/declarations.h"
 #include "signweave/motion/motion.h"
 
 namespace signweave::gltf {
 
 struct CharacterOptions {
   std::string name = "motion";  ///< of the animation; UTF-8
-  /// What the sources declare ("signweave:placeholder"): names and values, written to the asset's extras.
-  std::vector<std::pair<std::string, std::string>> declarations;
+  Declarations declarations;    ///< of the sources; written to the asset's extras
 };
 
 /// A character's own GLB with a motion as its only animation: everything in the file stays as it is, and the keys are

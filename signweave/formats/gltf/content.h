@@ -11,6 +11,7 @@
 
 #include <tiny_gltf.h>
 
+#include "signweave/annotation/declarations.h"
 #include "signweave/core/error.h"
 
 namespace signweave::gltf {
@@ -39,10 +40,9 @@ struct Content {
   tinygltf::Model model;                          ///< without buffers, meshes, materials and pictures
   std::vector<std::optional<PackedView>> packed;  ///< [view]
   std::vector<MorphMesh> meshes;                  ///< [mesh]
-  /// What the file declares: extras "signweave:…" of its asset, as name and value.
-  std::vector<std::pair<std::string, std::string>> declarations;
-  std::vector<nlohmann::json> tracks;     ///< [animation] the `tracks` of its extras, or null
-  std::vector<bool> is_light;             ///< [node]
+  Declarations declarations;                      ///< extras "signweave:…" of the file's asset
+  std::vector<nlohmann::json> tracks;             ///< [animation] the `tracks` of its extras, or null
+  std::vector<bool> is_light;                     ///< [node]
   std::vector<std::string_view> buffers;  ///< [buffer] its bytes; empty for one that is only a placeholder for others
   std::deque<std::string> owned;          ///< those bytes that do not occur verbatim in the file
   std::uint64_t byte_count = 0;           ///< of the file and of all external buffers

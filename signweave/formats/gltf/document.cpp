@@ -51,10 +51,10 @@ int Document::scalars(std::span<const float> values, bool with_bounds) {
   return index;
 }
 
-int Document::vectors(std::span<const Eigen::Vector3f> values, bool vertices, bool with_bounds) {
+int Document::vectors(std::span<const Eigen::Vector3f> values, VectorUse use) {
   const int index = add_list(values, values.size(), TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_VEC3,
-                             vertices ? TINYGLTF_TARGET_ARRAY_BUFFER : 0);
-  if (with_bounds) {
+                             use.vertices ? TINYGLTF_TARGET_ARRAY_BUFFER : 0);
+  if (use.with_bounds) {
     Eigen::Vector3f low = values[0];
     Eigen::Vector3f high = values[0];
     for (const Eigen::Vector3f& value : values) {

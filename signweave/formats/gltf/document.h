@@ -23,8 +23,12 @@ class Document {
 
   /// One number each; with bounds if they are the times of an animation.
   int scalars(std::span<const float> values, bool with_bounds = false);
+  struct VectorUse {
+    bool vertices = false;  ///< vertex attributes rather than keys
+    bool with_bounds = false;
+  };
   /// Vertex attributes (positions and targets have bounds, normals have none), or the keys of an animation.
-  int vectors(std::span<const Eigen::Vector3f> values, bool vertices, bool with_bounds = false);
+  int vectors(std::span<const Eigen::Vector3f> values, VectorUse use);
   /// Keys of rotations: x, y, z, w.
   int quaternions(std::span<const Eigen::Vector4f> values);
   int matrices(std::span<const Eigen::Matrix4f> values);

@@ -164,8 +164,8 @@ class Writer {
       if (!mesh.positions[i].allFinite()) throw Error(ErrorCode::bad_input, "the skeleton is too large to be drawn");
     }
     tinygltf::Primitive primitive;
-    primitive.attributes["POSITION"] = document_.vectors(mesh.positions, true, true);
-    primitive.attributes["NORMAL"] = document_.vectors(mesh.normals, true);
+    primitive.attributes["POSITION"] = document_.vectors(mesh.positions, {.vertices = true, .with_bounds = true});
+    primitive.attributes["NORMAL"] = document_.vectors(mesh.normals, {.vertices = true});
     primitive.attributes["JOINTS_0"] = document_.joints(mesh.joints);
     primitive.attributes["WEIGHTS_0"] = document_.full_weights(mesh.positions.size());
     primitive.indices = document_.indices(mesh.indices);
@@ -245,7 +245,7 @@ class Writer {
     std::vector<Vector3f> keys;
     for (std::size_t i = 0; i < skeleton_.translation_count(); ++i) {
       if (!translation_keys(motion_, i, keys)) continue;
-      add_channel(skeleton_.translated_joints()[i], "translation", document_.vectors(keys, false), true);
+      add_channel(skeleton_.translated_joints()[i], "translation", document_.vectors(keys, {}), true);
     }
   }
 
@@ -293,13 +293,14 @@ class Writer {
       for (Vector3f& delta : target.deltas) delta = turned_back(head, delta);
     }
     tinygltf::Primitive primitive;
-    primitive.attributes["POSITION"] = document_.vectors(face.positions, true, true);
-    primitive.attributes["NORMAL"] = document_.vectors(face.normals, true);
+    primitive.attributes["POSITION"] = document_.vectors(face.positions, {.vertices = true, .with_bounds = true});
+    primitive.attributes["NORMAL"] = document_.vectors(face.normals, {.vertices = true});
     primitive.indices = document_.indices(face.indices);
     primitive.mode = TINYGLTF_MODE_TRIANGLES;
     primitive.material = add_material("face", {0.05, 0.04, 0.05, 1}, true);
     for (const FaceTarget& target : face.targets) {
-      primitive.targets.push_back({{"POSITION", document_.vectors(target.deltas, true, true)}});
+      primitive.targets.push_back(
+          {{"POSITION", document_.vectors(target.deltas, {.vertices = true, .with_bounds = true})}});
     }
     tinygltf::Value::Object extras;
     extras["targetNames"] = tinygltf::Value(std::move(listed));

@@ -3,9 +3,8 @@
 #include <filesystem>
 #include <optional>
 #include <string>
-#include <utility>
-#include <vector>
 
+#include "signweave/annotation/declarations.h"
 #include "signweave/motion/motion.h"
 #include "signweave/rig/rig_map.h"
 
@@ -20,8 +19,7 @@ enum class Container {
 
 struct WriteOptions {
   std::string name = "motion";  ///< of the animation, and of the node above the root; UTF-8
-  /// What the sources declare ("signweave:placeholder"): names and values, written to the asset's extras.
-  std::vector<std::pair<std::string, std::string>> declarations;
+  Declarations declarations;    ///< of the sources; written to the asset's extras
   /// The joint that carries the face; if not given, the one named Head, or else the one with the shape of a head.
   std::optional<JointIndex> head;
   std::optional<RigMap> rig;  ///< which joint is which; if not given, the result of `map_rig`

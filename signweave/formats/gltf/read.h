@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "signweave/annotation/declarations.h"
 #include "signweave/core/error.h"
 #include "signweave/core/time.h"
 #include "signweave/motion/motion.h"
@@ -29,9 +30,7 @@ struct ReadFile {
   Motion motion;                ///< frame 0 is the first key of the animation
   std::string take;             ///< the animation's name, or its number if it has no name
   std::vector<Notice> notices;  ///< what was guessed, repaired, left out or found to be unusual
-  /// What the file declares and must not be lost, such as that its shapes are placeholders: extras "signweave:…" of its
-  /// asset, as our own writer writes them. Name and value.
-  std::vector<std::pair<std::string, std::string>> declarations;
+  Declarations declarations;    ///< extras "signweave:…" of the file's asset, as our own writer writes them
 };
 
 /// Reads one animation. The joints are those of the skins and all nodes between them or, if there is no skin, the nodes

@@ -12,6 +12,8 @@ export interface Tier {
   readonly name: string
   /** Name of the parent tier, if any. */
   readonly parent?: string
+  /** The signer, if the file names one. */
+  readonly participant?: string
   /** Number of ancestors: 0 for a tier without a parent. */
   readonly depth: number
   /** Ordered by time; annotations of one tier never overlap. */
@@ -19,6 +21,8 @@ export interface Tier {
 }
 export interface AnnotationDocument {
   readonly tiers: readonly Tier[]
+  /** Values by name. */
+  readonly properties?: Readonly<Record<string, string>>
 }
 
 /** Returns the index of the annotation at a time, by binary search; −1 if there is none. */

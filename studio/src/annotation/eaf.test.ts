@@ -4,13 +4,14 @@ import { annotationNear, indexAt, nextBegin } from './document'
 import { readEaf } from './eaf'
 
 const kEaf = `<?xml version="1.0"?><ANNOTATION_DOCUMENT>
+<HEADER><PROPERTY NAME="P">a &amp; b</PROPERTY></HEADER>
 <TIME_ORDER><TIME_SLOT TIME_SLOT_ID="t1" TIME_VALUE="100"/><TIME_SLOT TIME_SLOT_ID="t2"/><TIME_SLOT TIME_SLOT_ID="t3"/>
 <TIME_SLOT TIME_SLOT_ID="t4" TIME_VALUE="400"/><TIME_SLOT TIME_SLOT_ID="t5" TIME_VALUE="600"/></TIME_ORDER>
 <TIER TIER_ID="Parts" PARENT_REF="Gloss">
  <ANNOTATION><REF_ANNOTATION ANNOTATION_ID="p2" ANNOTATION_REF="g1" PREVIOUS_ANNOTATION="p1">
   <ANNOTATION_VALUE>two</ANNOTATION_VALUE></REF_ANNOTATION></ANNOTATION>
  <ANNOTATION><REF_ANNOTATION ANNOTATION_ID="p1" ANNOTATION_REF="g1"><ANNOTATION_VALUE>one</ANNOTATION_VALUE></REF_ANNOTATION></ANNOTATION></TIER>
-<TIER TIER_ID="Gloss">
+<TIER TIER_ID="Gloss" PARTICIPANT="Zoé">
  <ANNOTATION><ALIGNABLE_ANNOTATION ANNOTATION_ID="g1" TIME_SLOT_REF1="t1" TIME_SLOT_REF2="t4">
   <ANNOTATION_VALUE>LE MANS</ANNOTATION_VALUE></ALIGNABLE_ANNOTATION></ANNOTATION>
  <ANNOTATION><ALIGNABLE_ANNOTATION ANNOTATION_ID="g2" TIME_SLOT_REF1="t4" TIME_SLOT_REF2="t5">
@@ -21,7 +22,8 @@ const kEaf = `<?xml version="1.0"?><ANNOTATION_DOCUMENT>
 </ANNOTATION_DOCUMENT>`
 
 it('reads tiers in tree order, with the times that ELAN shows', () => {
-  const { tiers } = readEaf(kEaf)
+  const { tiers, properties } = readEaf(kEaf)
+  expect([properties, tiers.map(({ participant }) => participant)]).toEqual([{ P: 'a & b' }, ['Zoé', undefined, undefined]])
   expect(tiers.map(({ name, depth }) => [name, depth])).toEqual([
     ['Gloss', 0],
     ['Parts', 1],

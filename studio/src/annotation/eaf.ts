@@ -56,9 +56,14 @@ export function readEaf(text: string): AnnotationDocument {
   const tiers = elements.map((_, t): Tier => {
     const name = names[t]
     const annotations = byTier[t].map((one): Annotation => ({ ...spanOf(one), label: one.label }))
-    return { name, parent: parents.get(name), depth: depthOf(name, parents), annotations: annotations.sort((a, b) => a.begin - b.begin) }
+    const participant = elements[t].getAttribute('PARTICIPANT') || undefined
+    return { name, parent: parents.get(name), participant, depth: depthOf(name, parents), annotations: annotations.sort((a, b) => a.begin - b.begin) }
   })
-  return { tiers: childrenAfterParents(tiers) }
+  const properties = childrenOf(root, 'HEADER').flatMap((header) => childrenOf(header, 'PROPERTY'))
+  return {
+    tiers: childrenAfterParents(tiers),
+    properties: Object.fromEntries(properties.map((one) => [one.getAttribute('NAME') ?? '', one.textContent ?? ''])),
+  }
 }
 
 /** Returns the child elements, optionally only those with a given name. Walks the children, because selectors take seconds for an hour of annotation. */

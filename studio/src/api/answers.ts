@@ -1,3 +1,4 @@
+import type { Remedy } from './fault'
 /// What the calls of docs/http.md answer, as far as the studio reads it. Times are ms, lengths metres.
 
 import type { Declarations } from '../motion/declarations'
@@ -80,7 +81,7 @@ export interface FrameSpan {
   readonly end: number
 }
 /** Signs of one recording as they were captured, and what of it is kept: frames of the new motion. */
-export interface ReportStretch {
+export interface ReportClip {
   readonly clip: number
   /** The first place of the utterance that it is of. */
   readonly place: number
@@ -90,7 +91,7 @@ export interface ReportStretch {
   readonly kept_from_recorded_frame: number
   readonly recorded_frames_per_frame: number
 }
-/** The transition between two stretches. */
+/** The transition between two clips. */
 export interface ReportJunction {
   readonly from_clip: number
   readonly to_clip: number
@@ -107,7 +108,7 @@ export interface Report {
   readonly frames: number
   readonly frames_per_second: number
   readonly signs: readonly ReportSign[]
-  readonly stretches: readonly ReportStretch[]
+  readonly clips: readonly ReportClip[]
   readonly junctions: readonly ReportJunction[]
 }
 /** A token that may fill a place, and what it costs there; `join` is that to the one chosen before. */
@@ -164,6 +165,24 @@ export interface JobState<Result> {
   readonly fraction: number
   readonly result?: Result
   readonly error?: { readonly message: string; readonly code: string }
+}
+/** A place of an utterance's text, as docs/http.md describes it; spans count characters (code points) from 0. */
+export type UtterancePlaceRow = { readonly pause?: 'comma' | 'stop'; readonly begin: number; readonly end: number } & (
+  { readonly gloss: string; readonly token?: number } | { readonly recording: string; readonly from_ms: number; readonly to_ms: number }
+)
+export interface UtteranceFaultRow {
+  readonly code: string
+  readonly message: string
+  readonly line: number
+  readonly column: number
+  readonly begin: number
+  readonly end: number
+  readonly remedies?: readonly Remedy[]
+}
+export interface UtteranceAnswer {
+  readonly places: readonly UtterancePlaceRow[]
+  /** After the last place. */ readonly pause?: 'comma' | 'stop'
+  readonly faults: readonly UtteranceFaultRow[]
 }
 /** What stopped nothing: a guess or a hint. */
 export interface NoticeRow {

@@ -1,4 +1,5 @@
 import { readFrames, type FrameTaker } from '../motion/frames_body'
+import { decoded } from '../annotation/decoded'
 import type { Declarations } from '../motion/declarations'
 import type {
   CharacterRow,
@@ -14,6 +15,7 @@ import type {
   Statistics,
   TierLabels,
   TransitionRow,
+  UtteranceAnswer,
   Vocabulary,
 } from './answers'
 import { ApiError, errorOf, StudioFault, type Refusal } from './fault'
@@ -23,13 +25,13 @@ const kPatience = 30_000
 
 type Query = Readonly<Record<string, string | number | undefined>>
 
-/** Which piece of a recording, in ms of annotation time, and what is made anew in it. */
+/** Which piece of a recording, in ms of annotation time, and what is regenerated in it. */
 export interface PieceWishes {
   readonly from: number
   readonly to: number
   readonly character?: string
   /** `FROM..TO` in ms: captured frames that are cut out and made again by the method `transition`. */
-  readonly remake?: string
+  readonly regenerate?: string
   readonly transition?: string
 }
 
@@ -106,7 +108,7 @@ export class Api {
     return (await this.call(path('databases', database, 'stats') + query({ format: 'svg', recording }))).blob()
   }
   async annotation(database: string, recording: string): Promise<string> {
-    return (await this.call(path('databases', database, 'recordings', recording, 'annotation'))).text()
+    return decoded(await (await this.call(path('databases', database, 'recordings', recording, 'annotation'))).arrayBuffer())
   }
   /** What was made, as ELAN shows it: `call` is `sign` or `edit`, `body` its parameters. */
   async madeAnnotation(database: string, call: 'sign' | 'edit', body: object): Promise<string> {
@@ -139,6 +141,10 @@ export class Api {
   /** What `sign` would make, with what there was to choose from. */
   async explained(database: string, body: object, signal?: AbortSignal): Promise<ExplainedReport> {
     return (await this.post(path('databases', database, 'sign'), { ...body, explain: true }, signal)).json() as Promise<ExplainedReport>
+  }
+  /** The places and the faults of an utterance's text. */
+  async utterance(text: string, signal?: AbortSignal): Promise<UtteranceAnswer> {
+    return (await this.post('utterance', { text }, signal)).json() as Promise<UtteranceAnswer>
   }
   /** What `sign` makes, as a file of a format. */
   async madeFile(database: string, body: object, signal?: AbortSignal): Promise<Blob> {
@@ -192,17 +198,17 @@ export class Api {
     return this.json(path('jobs', id) + (from > 0 ? query({ from }) : ''))
   }
   /**
-   * Waits until a job is over, and gives its result; throws what it failed with. `told` hears how far it is. A server that does not answer is waited
+   * Waits until a job is over, and gives its result; throws what it failed with. `listener` hears how far it is. A server that does not answer is waited
    * for so many ms of `patience`: the job goes on there.
    */
-  async result<Result>({ job }: JobBegun, told: (state: JobState<Result>) => void = () => {}, signal?: AbortSignal, patience = kPatience): Promise<Result> {
+  async result<Result>({ job }: JobBegun, listener: (state: JobState<Result>) => void = () => {}, signal?: AbortSignal, patience = kPatience): Promise<Result> {
     const recordings: unknown[] = []
     for (let wait = 100, away = 0; ; wait = Math.min(1000, wait * 1.3)) {
       let state: JobState<Result> | undefined
       try {
         state = await this.job<Result>(job, recordings.length)
       } catch (fault) {
-        // What is told of it, such as that there is no such job, is no silence.
+        // What is listener of it, such as that there is no such job, is no silence.
         if (fault instanceof ApiError || away >= patience) throw fault
       }
       away = state ? 0 : away + wait
@@ -212,7 +218,7 @@ export class Api {
         for (const one of more) recordings.push(one)
         state = { ...state, result: { ...state.result!, recordings } }
       }
-      if (state) told(state)
+      if (state) listener(state)
       if (state?.state === 'done') return state.result!
       if (state?.state === 'failed' || state?.state === 'cancelled')
         throw new ApiError(state.error?.message ?? state.state, 500, state.error?.code ?? state.state)
@@ -300,7 +306,7 @@ export function faultOf(body: string, status: number): ApiError | StudioFault {
   }
 }
 
-/** The header's list; one that is none is told as it came. */
+/** The header's list; one that is none is listener as it came. */
 function noticesOf(header: string | null): readonly NoticeRow[] {
   if (!header) return []
   try {

@@ -3,9 +3,9 @@ import type { JobState, RecordingRow } from './answers'
 
 /// What the calls that fill and change a database answer, as far as the studio reads it. Times are ms, lengths metres.
 
-/** A format of files: its ending with the dot, and what the server does with it. */
+/** A format of files: its extension with the dot, and what the server does with it. */
 export interface FormatRow {
-  readonly ending: string
+  readonly extension: string
   readonly name: string
   readonly reads: boolean
   readonly writes: boolean
@@ -91,12 +91,25 @@ export interface TierReport {
   readonly role: 'signs' | 'phases' | ''
   readonly hand: HandName
 }
-/** What an import would store of one recording; with `error` only the first three are there. */
+export type ImportPart = FilePart | 'clock' | 'signer' | 'rig'
+/** What an import would change in the database. */
+export interface ImportPlan {
+  /** The name in the database. */
+  readonly recording: string
+  /** That of the import, or `refused`. */
+  readonly outcome: string
+  readonly changes: Readonly<Partial<Record<ImportPart, 'added' | 'replaced' | 'removed'>>>
+  /** Why the import would be refused. */
+  readonly error?: string
+  readonly remedies?: readonly Remedy[]
+}
+/** What an import would store of one recording; with `error` only the first three and `plan` are there. */
 export interface Inspected {
   readonly name: string
   readonly files: Readonly<Record<FilePart, string | null>>
-  /** The database has one of this name. */
+  /** The database has one of this name, or of the same files. */
   readonly known: boolean
+  readonly plan?: ImportPlan | undefined
   readonly error?: string
   /** What would fix the error. */
   readonly remedies?: readonly Remedy[]
@@ -149,7 +162,7 @@ export interface RelayoutResult {
   readonly changed: readonly string[]
   readonly faults: readonly string[]
 }
-export type JobTold<Result> = (state: JobState<Result>) => void
+export type JobListener<Result> = (state: JobState<Result>) => void
 
 /** A phase that the segmenter proposes, in ms of the motion: frame 0 is at 0. */
 export interface ProposedPhase {

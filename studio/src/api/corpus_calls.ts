@@ -1,8 +1,22 @@
 import { readFrames, type FrameTaker } from '../motion/frames_body'
 import type { JobBegun } from './answers'
-import { faultOf, path, type Api } from './client'
+import { faultOf, path, query, type Api } from './client'
 import type { DatabaseInfo, FormatRow, Proposals, StoredRecording } from './corpus_answers'
 import { StudioFault } from './fault'
+
+/** Changes of an annotation, as docs/http.md describes them. */
+export interface TierChanges {
+  readonly remove?: readonly string[]
+  readonly tiers?: readonly {
+    readonly name: string
+    readonly type: string
+    readonly annotator?: string
+    readonly participant?: string
+    readonly spread?: boolean
+    readonly annotations: readonly { readonly begin_ms: number; readonly end_ms: number; readonly label: string }[]
+  }[]
+  readonly properties?: readonly { readonly name: string; readonly value: string }[]
+}
 
 /// Calls that fill and change a database, and calls that report how it is stored.
 
@@ -12,9 +26,10 @@ export const storedRecording = (api: Api, database: string, recording: string): 
   api.json(path('databases', database, 'recordings', recording))
 export const proposals = (api: Api, database: string, recording: string, signal?: AbortSignal): Promise<Proposals> =>
   api.json(path('databases', database, 'recordings', recording, 'segment'), { signal })
-/** Returns the annotation's bytes in the encoding in which it was stored. */
-export async function annotationBytes(api: Api, database: string, recording: string, signal?: AbortSignal): Promise<ArrayBuffer> {
-  return (await api.call(path('databases', database, 'recordings', recording, 'annotation'), { signal })).arrayBuffer()
+/** Returns a recording's annotation with changes, as an EAF file; nothing is stored. Fails if it has another annotation than that of fingerprint `over`. */
+export async function annotated(api: Api, database: string, recording: string, changes: TierChanges, signal?: AbortSignal, over?: string): Promise<Blob> {
+  const where = path('databases', database, 'recordings', recording, 'annotation') + query({ if_annotation: over })
+  return (await api.post(where, changes, signal)).blob()
 }
 
 export async function openUpload(api: Api, database: string): Promise<string> {

@@ -1,15 +1,24 @@
 import { expect, it } from 'vitest'
 import { askingOf } from './asking'
 import { glossesOf } from './complete'
-import { kEmpty, withJoin, withPlaces } from './project'
-import { placesOf } from './utterance'
+import { kEmpty, piecePlace, signPlace, withJoin, withPlaces } from './project'
 
 const glosses = glossesOf([
   { gloss: 'A', tokens: 2 },
   { gloss: 'B', tokens: 1 },
 ])
 const recordings = new Map([['r', 50]])
-const project = withJoin(withPlaces(kEmpty, placesOf('X A#2 gone@1..20 Y , B#9 B r@1..20 A')), 5, { method: 'gap' })
+const places = [
+  signPlace('X'),
+  signPlace('A', 2),
+  piecePlace('gone', 1, 20),
+  signPlace('Y'),
+  signPlace('B', 9, 'comma'),
+  signPlace('B'),
+  piecePlace('r', 1, 20),
+  signPlace('A'),
+]
+const project = withJoin(withPlaces(kEmpty, places), 5, { method: 'gap' })
 
 it('requests token costs without the places that the database does not know', () => {
   const utterance = 'A#2 B r@1..20 A'

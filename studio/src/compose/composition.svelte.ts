@@ -2,15 +2,24 @@ import type { WorkState } from '../ui/route'
 import { carried } from './carry'
 import { begun, did, redone, undone, type History } from './history'
 import { duplicated, inserted, kEmpty, moved, removed, sameProject, withPlaces, type Place, type Project } from './project'
+import { Newest } from './newest'
 import { projectOf, stateOf } from './state'
+import { textOf, type ReadText } from './utterance'
 
 /** The subject of the side panel: a place, the junction before a place (by the place's id), or the whole project. */
 export type Selected = { readonly kind: 'place' | 'junction'; readonly id: number } | { readonly kind: 'all' }
 
+/** A text that cannot be read as signs, and why. */
+export interface Unread {
+  readonly text: string
+  readonly fault: unknown
+}
+
 interface Kept {
   readonly history: History<Project>
   readonly written: string
-  readonly unread?: string
+  readonly unread?: Unread
+  readonly wrong: readonly string[]
 }
 /**
  * The last composition of each database since the page was loaded, so that a returning user can continue. The address is written shortly after a step, so an
@@ -25,48 +34,76 @@ export class Composition {
   readonly project = $derived(this.history.now)
   readonly canUndo = $derived(this.history.past.length > 0)
   readonly canRedo = $derived(this.history.future.length > 0)
-  /** A text that cannot be read as signs: it stays in the field until it is corrected. */
-  private faulty = $state.raw<string | undefined>()
+  /** An address is being read. */
+  following = $state(false)
+  /** An unreadable text stays in the field until it is corrected. */
+  private faulty = $state.raw<Unread | undefined>()
   /** The state written to the address last, as text; empty before the first. */
   private written = ''
+  /** The names of parameters of the address that could not be read, until another address is written. */
+  private wrong: readonly string[] = []
+  /** No state was adopted yet. */
+  private fresh = true
+  private readonly reading = new Newest()
 
-  constructor(private readonly database: string) {}
+  constructor(
+    private readonly database: string,
+    private readonly read: ReadText,
+  ) {}
 
-  /** Adopts the state of an address and returns the names of parameters that could not be read. An empty address continues with the previous state. */
-  follow(state: WorkState): readonly string[] {
+  /**
+   * Adopts the state of an address and returns the names of parameters that could not be read. An empty address continues with the previous state. A newer
+   * address, and any change while this one is being read, takes precedence.
+   */
+  async follow(state: WorkState): Promise<readonly string[]> {
     const text = JSON.stringify(state)
     if (text === this.written) return []
-    const { project, wrong, unread } = projectOf(state)
-    const isFirst = this.written === '',
-      says = Object.keys(state).length > 0,
+    const says = Object.keys(state).length > 0,
       last = kept.get(this.database)
     this.written = text
-    if (isFirst && last && (!says || text === last.written)) {
+    if (this.fresh && last && (!says || text === last.written)) {
+      this.fresh = false
       this.history = last.history
       this.faulty = last.unread
-    } else {
-      if (isFirst) this.history = begun(project)
-      else if (!sameProject(this.project, project) && project.places.length > 0) this.change(project)
-      if (says) this.faulty = unread
+      this.wrong = last.wrong
+      this.settle()
+      return this.wrong // The page that read the address may have been replaced before it could show them.
     }
+    this.following = true
+    const { utterance = '' } = state
+    const outcome = await this.reading.run(
+      async (signal) => (utterance === textOf(this.project.places) ? this.project.places : (await this.read(utterance, signal)).places),
+      () => this.project,
+    )
+    if (outcome.kind === 'overtaken') return []
+    const isFirst = this.fresh
+    this.following = this.fresh = false
+    if (outcome.kind === 'changed') return []
+    const { project, wrong } = projectOf(state, outcome.kind === 'done' ? outcome.value : undefined)
+    if (isFirst) this.history = begun(project)
+    else if (!sameProject(this.project, project) && project.places.length > 0) this.change(project)
+    if (says) this.faulty = outcome.kind === 'failed' ? { text: utterance, fault: outcome.fault } : undefined
+    this.wrong = wrong
     this.settle()
     return wrong
   }
-  get unread(): string | undefined {
+  get unread(): Unread | undefined {
     return this.faulty
   }
-  set unread(text: string | undefined) {
-    this.faulty = text
+  set unread(unread: Unread | undefined) {
+    this.faulty = unread
     this.keep()
   }
   /** Returns the state to write to the address; undefined if it is already there. */
   address(): WorkState | undefined {
+    if (this.following) return undefined
     const state = stateOf(this.project)
     // An unreadable link stays as it is until there is something else to write.
-    if (this.faulty !== undefined && this.project.places.length === 0) state.utterance = this.faulty
+    if (this.faulty !== undefined && this.project.places.length === 0) state.utterance = this.faulty.text
     const text = JSON.stringify(state)
     if (text === this.written) return undefined
     this.written = text
+    this.wrong = []
     this.keep()
     return state
   }
@@ -121,6 +158,6 @@ export class Composition {
     if (this.selected.kind !== 'all' && at < (this.selected.kind === 'junction' ? 1 : 0)) this.selected = { kind: 'all' }
   }
   private keep(): void {
-    kept.set(this.database, { history: this.history, written: this.written, unread: this.faulty })
+    kept.set(this.database, { history: this.history, written: this.written, unread: this.faulty, wrong: this.wrong })
   }
 }

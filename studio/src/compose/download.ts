@@ -11,12 +11,12 @@ export function download(what: Blob | string, name: string, type = 'application/
 }
 
 /** Turns a text into a file name: without characters that file systems forbid, and not too long. */
-export function fileName(title: string, ending: string): string {
+export function fileName(title: string, extension: string): string {
   const plain = title
     .normalize('NFC')
     .replace(/["#@.,…<>:/\\|?*\p{Cc}]+/gu, ' ')
     .trim()
     .replace(/\s+/g, '_')
     .slice(0, 60)
-  return `${plain || 'signweave'}${ending}`
+  return `${plain || 'signweave'}${extension}`
 }

@@ -3,7 +3,8 @@ import type { ExplainedReport, Report } from '../api/answers'
 import { candidatesOf, chosenTokens } from './candidates'
 import { Known, layoutOf } from './layout'
 import { documentOf } from './made_document'
-import { placesOf } from './utterance'
+import { piecePlace, signPlace } from './project'
+import { signs } from './test_places'
 
 const sign = (gloss: string, place: number, clip: number, begin: number, end: number, recording: string, from: number) => ({
   gloss,
@@ -18,7 +19,7 @@ const sign = (gloss: string, place: number, clip: number, begin: number, end: nu
     { kind: 'stroke', begin_ms: begin + 100, end_ms: end - 100 },
   ],
 })
-const stretch = (clip: number, place: number, recording: string, begin: number, end: number) => ({
+const clipOf = (clip: number, place: number, recording: string, begin: number, end: number) => ({
   clip,
   place,
   recording,
@@ -50,10 +51,10 @@ const kReport: Report = {
     sign('D', 2, 1, 3500, 4500, 's', 6000),
     sign('E', 4, 3, 8000, 10_000, 'r', 9000),
   ],
-  stretches: [stretch(0, 0, 'r', 0, 200), stretch(1, 2, 's', 240, 460), stretch(2, 3, 's', 500, 700), stretch(3, 4, 'r', 790, 1000)],
+  clips: [clipOf(0, 0, 'r', 0, 200), clipOf(1, 2, 's', 240, 460), clipOf(2, 3, 's', 500, 700), clipOf(3, 4, 'r', 790, 1000)],
   junctions: [junction(1, 200, 245), junction(2, 460, 505), junction(3, 700, 795)],
 }
-const kPlaces = placesOf('A B s@4000..7000 s@100..200 E')
+const kPlaces = [...signs('A', 'B'), piecePlace('s', 4000, 7000), piecePlace('s', 100, 200), signPlace('E')]
 
 it('finds each place, also if pieces contain several signs or none', () => {
   const { places, seams } = layoutOf(kPlaces, kReport)!
@@ -88,8 +89,8 @@ it('knows the positions of places that have moved since, but not their junctions
 })
 
 it('returns nothing for places that do not match the report', () => {
-  expect(layoutOf(placesOf('A B'), kReport)).toBeUndefined()
-  expect(layoutOf(placesOf('A B C D E F'), kReport)).toBeUndefined()
+  expect(layoutOf(signs('A', 'B'), kReport)).toBeUndefined()
+  expect(layoutOf(signs('A', 'B', 'C', 'D', 'E', 'F'), kReport)).toBeUndefined()
 })
 
 it('builds the annotation of a result like its EAF', () => {

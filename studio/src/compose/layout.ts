@@ -24,7 +24,7 @@ export type Seam =
       readonly blend: number
     }
 /** The result, place by place; there is no seam before the first. */
-export interface Layout {
+export interface PlaceLayout {
   readonly places: readonly PlacePosition[]
   readonly seams: readonly (Seam | undefined)[]
 }
@@ -33,7 +33,7 @@ export interface Layout {
 export class Known {
   private readonly places = new Map<number, { readonly place: PlacePosition; readonly seam?: Seam; readonly before?: number }>()
 
-  constructor(places: readonly Place[], layout: Layout) {
+  constructor(places: readonly Place[], layout: PlaceLayout) {
     places.forEach(({ id }, k) => this.places.set(id, { place: layout.places[k], seam: layout.seams[k], before: places[k - 1]?.id }))
   }
   place(id: number): PlacePosition | undefined {
@@ -52,13 +52,13 @@ export class Known {
 }
 
 /** Returns the positions of an utterance's places from the report of its result; undefined if the places do not match the report. */
-export function layoutOf(places: readonly Place[], report: Report): Layout | undefined {
-  const { signs, stretches, junctions, frames_per_second: rate } = report
+export function layoutOf(places: readonly Place[], report: Report): PlaceLayout | undefined {
+  const { signs, clips, junctions, frames_per_second: rate } = report
   if (signs.some(({ place }) => place >= places.length)) return undefined
   const layout: PlacePosition[] = []
   for (const [place, { kind }] of places.entries()) {
     const own = signs.filter((sign) => sign.place === place)
-    const alone = stretches.find((stretch) => stretch.place === place)
+    const alone = clips.find((clip) => clip.place === place)
     if (own.length === 0 && (kind === 'sign' || !alone)) return undefined
     layout.push({
       begin: own.length > 0 ? own[0].begin_ms / 1000 : alone!.frames.begin / rate,

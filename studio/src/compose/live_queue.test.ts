@@ -4,7 +4,8 @@ import { ApiError, StudioFault } from '../api/fault'
 import { Live } from './live.svelte'
 import { LiveQueue } from './live_queue.svelte'
 import type { Place } from './project'
-import { placesOf, textOf, wordOf } from './utterance'
+import { signs } from './test_places'
+import { textOf, wordOf } from './utterance'
 
 const settled = () => new Promise((resolve) => setTimeout(resolve))
 function words(append: (word: string) => Promise<void>) {
@@ -14,7 +15,7 @@ function words(append: (word: string) => Promise<void>) {
     refused: (place: Place, fault: Error) => heard.push(`${wordOf(place)}: ${fault.message}`),
     back: (places: readonly Place[]) => heard.push(`back ${textOf(places)}`),
   })
-  return { one, heard, say: (text: string) => one.say(placesOf(text)) }
+  return { one, heard, say: (...glosses: string[]) => one.say(signs(...glosses)) }
 }
 
 it('signs words in the order in which they were typed, and reports every refused one', async () => {
@@ -22,8 +23,8 @@ it('signs words in the order in which they were typed, and reports every refused
     await settled()
     if (word.startsWith('NO')) throw new ApiError('no sign', 0, 'not_found')
   })
-  say('A NOB B')
-  say('NOC C')
+  say('A', 'NOB', 'B')
+  say('NOC', 'C')
   expect(textOf(one.waiting)).toBe('A NOB B NOC C')
   for (let i = 0; i < 8; ++i) await settled()
   expect(heard).toEqual(['signed A', 'NOB: no sign', 'signed B', 'NOC: no sign', 'signed C'])
@@ -35,18 +36,18 @@ it('returns words without an available signer, and continues when they are sent 
     if (word === 'B') there = false
     if (!there) throw new StudioFault('streamClosed')
   })
-  say('A B , C')
+  say('A', 'B', 'C')
   await settled()
   there = true
   say('C')
   await settled()
-  expect(heard).toEqual(['signed A', 'back B , C', 'signed C'])
+  expect(heard).toEqual(['signed A', 'back B C', 'signed C'])
 })
 
 it('returns unanswered words when closed, and reports nothing more', async () => {
   let fail = (_: Error) => {}
   const { one, heard, say } = words(() => new Promise((_, reject) => (fail = reject)))
-  say('A B')
+  say('A', 'B')
   expect(textOf(one.close())).toBe('A B')
   fail(new StudioFault('streamClosed'))
   await settled()

@@ -22,7 +22,7 @@ export const kEafLabels: MadeLabels = {
 
 /** Builds the annotation of a result as its EAF has it, from the report that comes with the frames: signs, phases, places, sources, junctions. */
 export function documentOf(report: Report, labels: MadeLabels = kEafLabels): AnnotationDocument {
-  const { signs, stretches, junctions, frames_per_second: rate } = report
+  const { signs, clips, junctions, frames_per_second: rate } = report
   const ms = (frame: number) => Math.round((1000 * frame) / rate)
   const phases = signs.flatMap((sign) => sign.phases ?? []).map((phase) => ({ begin: phase.begin_ms, end: phase.end_ms, label: named(phase.kind, labels) }))
   const tier = (name: string, annotations: readonly Annotation[], parent?: string): Tier => ({
@@ -45,7 +45,7 @@ export function documentOf(report: Report, labels: MadeLabels = kEafLabels): Ann
       ),
       tier(
         'Source',
-        stretches.map(({ clip, place, recording, frames, kept_frames, kept_from_recorded_frame: kept, recorded_frames_per_frame: step }) => {
+        clips.map(({ clip, place, recording, frames, kept_frames, kept_from_recorded_frame: kept, recorded_frames_per_frame: step }) => {
           const from = kept - (kept_frames.begin - frames.begin) * step,
             to = kept + (frames.end - kept_frames.begin) * step
           return {

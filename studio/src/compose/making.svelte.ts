@@ -10,7 +10,7 @@ import { Opening } from '../player/opening'
 import type { Showing, Strand } from '../viewer/showing'
 import { Transport, type Loop } from '../viewer/transport'
 import { bodyOf } from './body'
-import { layoutOf, type Layout } from './layout'
+import { layoutOf, type PlaceLayout } from './layout'
 import { documentOf, kEafLabels, type MadeLabels } from './made_document'
 import { firstChange, type Project } from './project'
 import { mainSigns } from './start'
@@ -35,7 +35,7 @@ export interface SigningRequest {
 export interface Made {
   readonly request: SigningRequest
   readonly report: Report
-  readonly layout?: Layout
+  readonly layout?: PlaceLayout
 }
 
 /** A recording shown for comparison; `before` is the one shown until this one is loaded. */
@@ -158,9 +158,9 @@ export class Making implements Showing {
     const { api, database } = this
     const { character } = opening
     const sign = (one: Project, called: string) => new MadeSource(api, database, called, 'sign', bodyOf(one), character)
-    const main = opening.strand(other?.kind === 'method' ? 'beside' : 'made', sign(project, title))
+    const main = opening.strand(other?.kind === 'method' ? 'compared' : 'made', sign(project, title))
     if (!other) return [await main]
-    if (other.kind === 'method') return Promise.all([main, opening.strand('beside', sign(other.other, other.title))])
+    if (other.kind === 'method') return Promise.all([main, opening.strand('compared', sign(other.other, other.title))])
     const [left, made] = await Promise.all([this.originalStrand(other.recording, character), main])
     return [left, made]
   }
@@ -223,7 +223,7 @@ export class Making implements Showing {
   }
 
   /** Chooses where playback of a new result continues: around the same junction, otherwise, unless playback was paused, a little before the change. */
-  private goOn(before: Made | undefined, { project }: SigningRequest, layout: Layout | undefined, atEnd: boolean): void {
+  private goOn(before: Made | undefined, { project }: SigningRequest, layout: PlaceLayout | undefined, atEnd: boolean): void {
     const { transport } = this
     const change = before ? firstChange(before.request.project, project) : 0
     const { time } = transport

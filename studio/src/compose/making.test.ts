@@ -22,7 +22,7 @@ function reportOf(n: number): Report {
       end_ms: 1000 * (at + 1),
       recorded: { begin_ms: 0, end_ms: 1000 },
     })),
-    stretches: each.map((at, k) => ({
+    clips: each.map((at, k) => ({
       clip: k,
       place: k,
       recording: 'r',

@@ -15,12 +15,13 @@ const en = {
   oneToken: '{n} token',
   manyTokens: '{n} tokens',
   discardText: 'Discard the text',
-  noClosingQuote: 'This quote is never closed: {rest}',
-  emptyName: 'A name is empty: {rest}',
-  pieceOrder: 'A piece must end after its begin: NAME@BEGIN..END in ms',
-  badSuffix: '{detail} after a name is neither #TOKEN nor @BEGIN..END',
-  tokenZero: 'Tokens are counted from 1: {rest}',
-  tooLong: 'The text is too long',
+  correctText: 'Write {text}',
+  open_quote: 'This quote is never closed: {rest}',
+  empty_name: 'A name is empty: {rest}',
+  piece_order: 'A piece must end after its begin: NAME@BEGIN..END in ms',
+  bad_suffix: 'After a name only #TOKEN or @BEGIN..END can follow: {rest}',
+  token_zero: 'Tokens are counted from 1: {rest}',
+  too_long: 'The text is too long',
   tooManyPlaces: 'More than 10,000 signs: this is more than can be signed at once',
   places: 'Signs in order',
   morePlaces: '{n} more signs',
@@ -148,7 +149,7 @@ const en = {
   term_speed: 'too fast',
   term_unknown: 'unknown',
   term_after: 'join to the next sign',
-  besideOriginal: 'Compare with the original',
+  compareOriginal: 'Compare with the original',
   making: 'Generating…',
   aborted: 'The latest version could not be generated; the previous one is shown.',
   linkWrong: 'This page does not understand parts of the link: {names}. The rest was loaded.',
@@ -183,12 +184,13 @@ const fr: Messages = {
   oneToken: '{n} occurrence',
   manyTokens: '{n} occurrences',
   discardText: 'Abandonner le texte',
-  noClosingQuote: 'Ce guillemet n’est jamais fermé : {rest}',
-  emptyName: 'Un nom est vide : {rest}',
-  pieceOrder: 'Un extrait doit finir après son début : NOM@DÉBUT..FIN en ms',
-  badSuffix: '{detail} après un nom n’est ni #OCCURRENCE ni @DÉBUT..FIN',
-  tokenZero: 'Les occurrences se comptent à partir de 1 : {rest}',
-  tooLong: 'Le texte est trop long',
+  correctText: 'Écrire {text}',
+  open_quote: 'Ce guillemet n’est jamais fermé : {rest}',
+  empty_name: 'Un nom est vide : {rest}',
+  piece_order: 'Un extrait doit finir après son début : NOM@DÉBUT..FIN en ms',
+  bad_suffix: 'Après un nom ne peut suivre que #OCCURRENCE ou @DÉBUT..FIN : {rest}',
+  token_zero: 'Les occurrences se comptent à partir de 1 : {rest}',
+  too_long: 'Le texte est trop long',
   tooManyPlaces: 'Plus de 10 000 signes : c’est plus que ce qui peut être signé en une fois',
   places: 'Signes dans l’ordre',
   morePlaces: '{n} signes de plus',
@@ -320,7 +322,7 @@ const fr: Messages = {
   term_speed: 'trop rapide',
   term_unknown: 'inconnu',
   term_after: 'jonction avec le signe suivant',
-  besideOriginal: 'Comparer à l’original',
+  compareOriginal: 'Comparer à l’original',
   making: 'Génération…',
   aborted: 'La dernière version n’a pas pu être générée ; la précédente est affichée.',
   linkWrong: 'Cette page ne comprend pas certaines parties du lien : {names}. Le reste a été chargé.',
@@ -356,7 +358,11 @@ export function methodText(name: string, text: Messages): string | undefined {
 
 /** Returns the message for a fault of a text or a file; other faults as everywhere else. */
 export function faultMessage(fault: unknown, text: Messages, common: Text): string {
-  if (fault instanceof UtteranceFault) return filled(text[fault.wrong], { detail: fault.detail, rest: fault.rest })
+  if (fault instanceof UtteranceFault) {
+    const { begin, end } = fault.range
+    // A newer server may know faults that this page does not.
+    return filled(text[fault.row.code as 'open_quote'] ?? fault.row.message, { rest: fault.text.slice(begin, Math.min(end, begin + 30)) })
+  }
   if (fault instanceof FileFault) return filled(text[fault.wrong], { detail: fault.detail })
   return fault instanceof StudioFault || fault instanceof Error ? messageOf(fault, common) : String(fault)
 }

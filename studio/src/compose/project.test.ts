@@ -21,7 +21,7 @@ import {
   withToken,
 } from './project'
 import { stateOf } from './state'
-import { placesOf } from './utterance'
+import { signs } from './test_places'
 
 const glosses = (project: typeof kEmpty) => project.places.map((place) => (place.kind === 'sign' ? place.gloss : place.recording)).join(' ')
 const abc = withPlaces(
@@ -51,8 +51,8 @@ it('moves pause and join with their place, and ignores those of the first place'
     false,
   ])
   expect(sameProject(moved(first, 0, 1), joined)).toBe(true)
-  expect([sameProject(first, withPlaces(kEmpty, placesOf('B A C'))), firstChange(first, withPlaces(kEmpty, placesOf('B A C')))]).toEqual([true, 3])
-  expect(sameProject(moved(withPlaces(first, carried(first.places, placesOf('B A C'))), 0, 1), joined)).toBe(true)
+  expect([sameProject(first, withPlaces(kEmpty, signs('B', 'A', 'C'))), firstChange(first, withPlaces(kEmpty, signs('B', 'A', 'C')))]).toEqual([true, 3])
+  expect(sameProject(moved(withPlaces(first, carried(first.places, signs('B', 'A', 'C'))), 0, 1), joined)).toBe(true)
   expect(withJoin(joined, 1, { durationMs: undefined }).places[1].join).toEqual({ method: 'gap' })
   expect(replaced(joined, 1, signPlace('Z', 4)).places[1]).toMatchObject({ gloss: 'Z', token: 4, pause: 'stop', id: joined.places[1].id })
 })

@@ -1,34 +1,37 @@
 import { expect, it } from 'vitest'
 import doc from '../../../docs/studio_compose.md?raw'
+import earlier from '../../../testdata/compat/project.signweave.json?raw'
 import { addressOf, parseRoute } from '../ui/route'
 import { bodyOf } from './body'
 import { FileFault, fileOf, readFile } from './file'
-import { kEmpty, sameProject, withHow, withJoin, withPlaces, type Project } from './project'
+import { kEmpty, piecePlace, sameProject, signPlace, withHow, withJoin, withPlaces, type Project } from './project'
 import { projectOf, stateOf } from './state'
-import { placesOf } from './utterance'
+import { signs } from './test_places'
 
+const kPlaces = [signPlace('VANNES'), signPlace('MATIN', 2), signPlace('LE MANS', 0, 'comma'), piecePlace('ISL Thanks', 1200, 3400)]
 const kFull: Project = {
-  ...withHow(
-    withJoin(
-      withJoin(withPlaces(kEmpty, placesOf('VANNES MATIN#2 , "LE MANS" "ISL Thanks"@1200..3400')), 1, { method: 'gap', durationMs: 450, tempo: 1.5 }),
-      3,
-      { tempo: 0.5 },
-    ),
-    { transition: 'hermite', duration: 'corpus', tempo: 1.25, align: 'ground', rate: '30000/1001' },
-  ),
+  ...withHow(withJoin(withJoin(withPlaces(kEmpty, kPlaces), 1, { method: 'gap', durationMs: 450, tempo: 1.5 }), 3, { tempo: 0.5 }), {
+    transition: 'hermite',
+    duration: 'corpus',
+    tempo: 1.25,
+    align: 'ground',
+    rate: '30000/1001',
+  }),
   original: 'meteo',
 }
 
 it('is unchanged by writing to and reading from an address', () => {
   const route = parseRoute(addressOf({ page: 'compose', database: 'demo', state: stateOf(kFull) }))
-  const { project, wrong } = projectOf('state' in route ? route.state : {})
+  const state = 'state' in route ? route.state : {}
+  const { project, wrong } = projectOf(state, kPlaces)
+  expect(state.utterance).toBe('VANNES MATIN#2 , "LE MANS" "ISL Thanks"@1200..3400')
   expect([sameProject(project, kFull), wrong]).toEqual([true, []])
   expect(stateOf(kEmpty)).toEqual({})
-  expect(projectOf({})).toEqual({ project: kEmpty, wrong: [] })
+  expect(projectOf({}, [])).toEqual({ project: kEmpty, wrong: [] })
 })
 
 it('names unreadable parts of an address, and keeps the rest', () => {
-  const { project, wrong } = projectOf({
+  const given = {
     utterance: 'A B',
     duration: '1.5',
     tempo: '9',
@@ -36,16 +39,26 @@ it('names unreadable parts of an address, and keeps the rest', () => {
     rate: 'y',
     transition: '1;2',
     junctions: '1=gap;7=gap;1=,',
-  })
+  }
+  const { project, wrong } = projectOf(given, signs('A', 'B'))
   expect(wrong).toEqual(['transition', 'duration', 'tempo', 'align', 'rate', 'junctions'])
   expect(project.places.map(({ join }) => join)).toEqual([{}, { method: 'gap' }])
-  expect(projectOf({ utterance: 'A "B' })).toEqual({ project: kEmpty, wrong: ['utterance'], unread: 'A "B' })
+  expect(projectOf({ utterance: 'A "B' }, undefined)).toEqual({ project: kEmpty, wrong: ['utterance'] })
 })
 
 it('is unchanged by writing to and reading from a file', () => {
   const { project, database } = readFile(fileOf(kFull, 'demo'))
   expect([sameProject(project, kFull), database]).toEqual([true, 'demo'])
   expect(sameProject(readFile(fileOf(kEmpty, 'demo')).project, kEmpty)).toBe(true)
+})
+
+it('reads a file of an earlier version', () => {
+  const { project, database } = readFile(earlier)
+  expect([bodyOf(project), project.original, database]).toEqual([
+    { utterance: 'VANNES , MATIN#2 villes@1200..3400', transition: 'hermite', duration: 400, tempo: 1.2, rate: '60', junctions: ['1=gap,450ms,x1.5'] },
+    'meteo',
+    'demo',
+  ])
 })
 
 it('reads the file in the documentation', () => {

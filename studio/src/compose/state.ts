@@ -1,7 +1,7 @@
 import { addressOf, type WorkState } from '../ui/route'
 import { isDuration, isMethod, isTempo, joinTexts, readJoin } from './joins'
-import { kAligns, kEmpty, kHow, withJoin, withPlaces, type How, type Project } from './project'
-import { placesOf, textOf } from './utterance'
+import { kAligns, kEmpty, kHow, withJoin, withPlaces, type How, type Place, type Project } from './project'
+import { textOf } from './utterance'
 
 /** Returns a project's state in the address: only what differs from the defaults. */
 export function stateOf({ places, how, original }: Project): Record<string, string> {
@@ -25,15 +25,14 @@ export function linkTo(project: Project, database: string, page: string): string
   return link.href
 }
 
-/** The content of an address, and the names of unreadable parameters. `unread` is a text that could not be read as signs. */
+/** The content of an address, and the names of unreadable parameters. */
 export interface Read {
   readonly project: Project
   readonly wrong: readonly string[]
-  readonly unread?: string
 }
 
-/** Returns the project in an address. Unreadable parts are left out and named. */
-export function projectOf(state: WorkState): Read {
+/** Returns the project in an address. Unreadable parts are left out and named. `places` are those of its utterance; undefined if that could not be read. */
+export function projectOf(state: WorkState, places: readonly Place[] | undefined): Read {
   const wrong: string[] = []
   const read = <T>(name: string, from: (text: string) => T | undefined): T | undefined => {
     if (state[name] === undefined) return undefined
@@ -41,13 +40,7 @@ export function projectOf(state: WorkState): Read {
     if (value === undefined) wrong.push(name)
     return value
   }
-  const places = read('utterance', (text) => {
-    try {
-      return placesOf(text)
-    } catch {
-      return undefined
-    }
-  })
+  read('utterance', () => places)
   const how: How = {
     transition: read('transition', (text) => (isMethod(text) ? text : undefined)) ?? kHow.transition,
     duration: read('duration', readDuration) ?? kHow.duration,
@@ -61,7 +54,7 @@ export function projectOf(state: WorkState): Read {
     if (one && one.junction < project.places.length) project = withJoin(project, one.junction, one.join)
     else if (!wrong.includes('junctions')) wrong.push('junctions')
   }
-  return { project, wrong, ...(wrong.includes('utterance') && { unread: state.utterance }) }
+  return { project, wrong }
 }
 
 export function readDuration(text: string): How['duration'] | undefined {

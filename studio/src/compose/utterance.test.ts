@@ -1,66 +1,70 @@
-import { expect, it } from 'vitest'
+import { expect, it, vi } from 'vitest'
+import type { UtteranceAnswer } from '../api/answers'
 import { carried } from './carry'
 import { piecePlace, signPlace, withJoin, withPlaces, kEmpty, type Place } from './project'
-import { canBeTyped, placesOf, textOf, UtteranceFault, wordsOf } from './utterance'
+import { signs } from './test_places'
+import { canBeTyped, readerOf, textOf, UtteranceFault, wordOf } from './utterance'
 
-const plain = ({ id: _, join: __, ...rest }: Place) => rest
-const sign = (gloss: string, token = 0, pause = 'none') => ({ kind: 'sign', gloss, token, pause })
-const piece = (recording: string, from: number, to: number, pause = 'none') => ({ kind: 'piece', recording, from, to, pause })
+const plain = ({ id: _, ...rest }: Place) => rest
 
-it('reads an utterance as the server does', () => {
-  expect(placesOf('VANNES MATIN#2 , "LE MANS"').map(plain)).toEqual([sign('VANNES'), sign('MATIN', 2), sign('LE MANS', 0, 'comma')])
-  expect(placesOf('"ISL Thanks"@1200..3400 meteo@1..2').map(plain)).toEqual([piece('ISL Thanks', 1200, 3400), piece('meteo', 1, 2)])
-  expect(placesOf('. A , . B , C .').map(plain)).toEqual([sign('A'), sign('B', 0, 'stop'), sign('C', 0, 'comma')])
-  expect(placesOf(`AUJOURD'HUI #BANK "A#3" "," "LE MANS"#2 A=B C#D #3 @1..2`).map(plain)).toEqual([
-    sign("AUJOURD'HUI"),
-    sign('#BANK'),
-    sign('A#3'),
-    sign(','),
-    sign('LE MANS', 2),
-    sign('A=B'),
-    sign('C#D'),
-    sign('#3'),
-    sign('@1..2'),
-  ])
-  expect(placesOf('  \t ')).toEqual([])
-})
-
-it('says where a text is wrong', () => {
-  const wrong = (text: string) => {
-    try {
-      wordsOf(text)
-    } catch (fault) {
-      const { wrong, at } = fault as UtteranceFault
-      return [wrong, at]
-    }
-    return undefined
+it('makes places of what the server reads', async () => {
+  const answer: UtteranceAnswer = {
+    places: [
+      { gloss: 'MATIN', token: 2, begin: 0, end: 7 },
+      { gloss: 'LE MANS', pause: 'comma', begin: 10, end: 19 },
+      { recording: 'r', from_ms: 1, to_ms: 20, pause: 'stop', begin: 22, end: 29 },
+    ],
+    pause: 'comma',
+    faults: [],
   }
-  expect(() => placesOf('A '.repeat(10_001))).toThrow('tooManyPlaces')
-  expect(placesOf('A '.repeat(10_000)).length).toBe(10_000)
-  expect(['A "B', '"" A', 'A r@5..5', 'A "B"x', 'A#0'].map(wrong)).toEqual([
-    ['noClosingQuote', 2],
-    ['emptyName', 0],
-    ['pieceOrder', 2],
-    ['badSuffix', 2],
-    ['tokenZero', 0],
-  ])
+  const ask = vi.fn(() => Promise.resolve(answer)),
+    read = readerOf(ask)
+  const { places, pause } = await read('MATIN#2 , "LE MANS" . r@1..20 ,')
+  expect(places.map(plain)).toEqual([signPlace('MATIN', 2), signPlace('LE MANS', 0, 'comma'), piecePlace('r', 1, 20, 'stop')].map(plain))
+  expect(pause).toBe('comma')
+  // Nothing is asked for where nothing is written.
+  expect([await read(' \t'), ask.mock.calls.length]).toEqual([{ places: [], pause: 'none' }, 1])
 })
 
-it('writes what is read as the same places', () => {
-  const names = ['LE MANS', 'A#3', 'r@1..2', ',', '.', '#BANK', "AUJOURD'HUI", 'A"B', 'É', '#3']
-  const places = [...names.map((name) => signPlace(name, 2, 'comma')), ...names.map((name) => piecePlace(name, 1, 20, 'stop'))]
-  expect(placesOf(textOf(places)).map(plain)).toEqual(places.map(plain).map((one, k) => (k === 0 ? { ...one, pause: 'none' } : one)))
+it('throws the first fault, at its place in the text', async () => {
+  const text = '😀 A "手'
+  const fault = { code: 'open_quote', message: 'm', line: 1, column: 5, begin: 4, end: 6, remedies: [{ parameter: 'text', value: '😀 A "手"' }] }
+  const thrown = await readerOf(() => Promise.resolve({ places: [], faults: [fault] }))(text).catch((wrong: unknown) => wrong)
+  expect(thrown).toBeInstanceOf(UtteranceFault)
+  const { range, corrected } = thrown as UtteranceFault
+  expect([text.slice(range.begin, range.end), corrected]).toEqual(['"手', '😀 A "手"'])
+})
+
+it('quotes names that would be read as something else', () => {
+  const names = ['LE MANS', 'A#3', 'r@1..2', ',', '.', '#BANK', "AUJOURD'HUI", 'A"B', 'É', '#3', '@1..2', 'C#D', 'A=B']
+  expect(names.map((name) => wordOf(signPlace(name)))).toEqual([
+    '"LE MANS"',
+    '"A#3"',
+    '"r@1..2"',
+    '","',
+    '"."',
+    '#BANK',
+    "AUJOURD'HUI",
+    'A"B',
+    'É',
+    '#3',
+    '@1..2',
+    'C#D',
+    'A=B',
+  ])
+  expect(textOf([signPlace('A', 2, 'comma'), signPlace('B', 0, 'comma'), piecePlace('LE MANS', 1, 20, 'stop')])).toBe('A#2 , B . "LE MANS"@1..20')
   expect(['A"B', '"A', 'A "B', ' ', ''].map(canBeTyped)).toEqual([true, false, false, false, false])
 })
 
-it('keeps, where a text is typed anew, which place is which and how it is joined', () => {
-  const before = withJoin(withPlaces(kEmpty, placesOf('A B C D')), 2, { method: 'gap' }).places
-  const ids = (text: string) => carried(before, placesOf(text)).map(({ id }) => before.findIndex((one) => one.id === id))
-  expect(ids('A B C D')).toEqual([0, 1, 2, 3])
-  expect(ids('A X B C D')).toEqual([0, -1, 1, 2, 3])
-  expect(ids('A B X D')).toEqual([0, 1, 2, 3]) // a word retyped is the same place
-  expect(ids('C D')).toEqual([2, 3])
-  expect(ids('X C Y B')).toEqual([-1, 2, -1, -1])
-  expect(carried(before, placesOf('X A B C D'))[3].join).toEqual({ method: 'gap' })
-  expect(carried(before, placesOf('A B , C D'))[2]).toMatchObject({ pause: 'comma', join: { method: 'gap' } })
+it('keeps, where a text is typed again, which place is which and how it is joined', () => {
+  const before = withJoin(withPlaces(kEmpty, signs('A', 'B', 'C', 'D')), 2, { method: 'gap' }).places
+  const ids = (...glosses: string[]) => carried(before, signs(...glosses)).map(({ id }) => before.findIndex((one) => one.id === id))
+  expect(ids('A', 'B', 'C', 'D')).toEqual([0, 1, 2, 3])
+  expect(ids('A', 'X', 'B', 'C', 'D')).toEqual([0, -1, 1, 2, 3])
+  expect(ids('A', 'B', 'X', 'D')).toEqual([0, 1, 2, 3]) // a word retyped is the same place
+  expect(ids('C', 'D')).toEqual([2, 3])
+  expect(ids('X', 'C', 'Y', 'B')).toEqual([-1, 2, -1, -1])
+  expect(carried(before, signs('X', 'A', 'B', 'C', 'D'))[3].join).toEqual({ method: 'gap' })
+  const paused = [...signs('A', 'B'), signPlace('C', 0, 'comma'), signPlace('D')]
+  expect(carried(before, paused)[2]).toMatchObject({ pause: 'comma', join: { method: 'gap' } })
 })

@@ -1,107 +1,52 @@
-import { kMostPlaces, piecePlace, signPlace, type Pause, type Place } from './project'
+import type { UtteranceAnswer, UtteranceFaultRow } from '../api/answers'
+import { piecePlace, signPlace, type Pause, type Place } from './project'
 
-/** What is wrong with a text, by the key of its words; `at` counts characters from 0, `rest` is what stands there. */
-export type UtteranceWrong = 'noClosingQuote' | 'emptyName' | 'pieceOrder' | 'badSuffix' | 'tokenZero' | 'tooLong' | 'tooManyPlaces'
+/** A text that cannot be read as an utterance: the first of its faults. */
 export class UtteranceFault extends Error {
   constructor(
-    readonly wrong: UtteranceWrong,
-    readonly at: number,
-    readonly detail = '',
-    readonly rest = '',
+    readonly text: string,
+    readonly row: UtteranceFaultRow,
   ) {
-    super(`${wrong} at ${at}`)
+    super(`${row.code} at ${row.begin}`)
+  }
+  /** The faulty part of the text, in UTF-16 code units; the server counts characters. */
+  get range(): { readonly begin: number; readonly end: number } {
+    const characters = [...this.text]
+    const begin = characters.slice(0, this.row.begin).join('').length
+    return { begin, end: begin + characters.slice(this.row.begin, this.row.end).join('').length }
+  }
+  /** The text without the fault, if the server can tell. */
+  get corrected(): string | undefined {
+    return this.row.remedies?.find(({ parameter }) => parameter === 'text')?.value
   }
 }
 
-/** A word of the text: where it stands, and what it asks for; pauses ask for nothing. */
-export interface Word {
-  readonly from: number
-  readonly to: number
-  readonly place?: Place
-  readonly pause?: Pause
+/** The content of a text. */
+export interface Reading {
+  readonly places: readonly Place[]
+  /** The pause after the last place. */ readonly pause: Pause
 }
+/** Reads the text of an utterance; throws UtteranceFault, or what the call throws. */
+export type ReadText = (text: string, signal?: AbortSignal) => Promise<Reading>
 
-const kBlank = /[ \t-\r]/
-const kToken = /^(.+)#(\d{1,15})$/s
-const kPiece = /^(.*)@(\d{1,15})\.\.(\d{1,15})$/s
-const kMostCharacters = 1_000_000
-
-/** The words of an utterance, as `parse_utterance` of the server reads them. Throws UtteranceFault. */
-export function wordsOf(text: string): Word[] {
-  if (text.length > kMostCharacters) throw new UtteranceFault('tooLong', 0)
-  const words: Word[] = []
-  for (let at = 0; at < text.length;) {
-    if (kBlank.test(text[at])) {
-      ++at
-      continue
+/** Reads texts by the server's grammar, which is the only one. */
+export function readerOf(ask: (text: string, signal?: AbortSignal) => Promise<UtteranceAnswer>): ReadText {
+  return async (text, signal) => {
+    if (text.trim() === '') return { places: [], pause: 'none' }
+    const { places, pause, faults } = await ask(text, signal)
+    if (faults.length > 0) throw new UtteranceFault(text, faults[0])
+    return {
+      places: places.map((one) =>
+        'recording' in one ? piecePlace(one.recording, one.from_ms, one.to_ms, one.pause) : signPlace(one.gloss, one.token, one.pause),
+      ),
+      pause: pause ?? 'none',
     }
-    const from = at
-    let name: string,
-      suffix = ''
-    const quoted = text[at] === '"'
-    if (quoted) {
-      const close = text.indexOf('"', at + 1)
-      if (close < 0) throw new UtteranceFault('noClosingQuote', at, '', text.slice(at, at + 30))
-      name = text.slice(at + 1, close)
-      at = close + 1
-      while (at < text.length && !kBlank.test(text[at])) suffix += text[at++]
-    } else {
-      while (at < text.length && !kBlank.test(text[at])) ++at
-      name = text.slice(from, at)
-      if (name === ',' || name === '.') {
-        words.push({ from, to: at, pause: name === ',' ? 'comma' : 'stop' })
-        continue
-      }
-      const split = splitBare(name)
-      name = split.name
-      suffix = split.suffix
-    }
-    words.push({ from, to: at, place: placeOf(name, suffix, from) })
   }
-  return words
 }
 
-/** "MATIN#3" and "meteo@1..2" of a bare word. */
-function splitBare(word: string): { name: string; suffix: string } {
-  const piece = kPiece.exec(word)
-  if (piece && piece[1] !== '') return { name: piece[1], suffix: word.slice(piece[1].length) }
-  const token = kToken.exec(word)
-  return token ? { name: token[1], suffix: word.slice(token[1].length) } : { name: word, suffix: '' }
-}
-
-function placeOf(name: string, suffix: string, at: number): Place {
-  if (name.trim() === '') throw new UtteranceFault('emptyName', at, '', `"${name}"${suffix}`)
-  if (suffix === '') return signPlace(name)
-  const piece = kPiece.exec(suffix)
-  if (piece && piece[1] === '') {
-    const from = Number(piece[2]),
-      to = Number(piece[3])
-    if (from >= to) throw new UtteranceFault('pieceOrder', at)
-    return piecePlace(name, from, to)
-  }
-  const token = /^#(\d{1,15})$/.exec(suffix)
-  if (!token) throw new UtteranceFault('badSuffix', at, suffix)
-  if (Number(token[1]) === 0) throw new UtteranceFault('tokenZero', at, '', name + suffix)
-  return signPlace(name, Number(token[1]))
-}
-
-/** The places of a text: of several pauses in a row the longest counts, before the first and after the last sign they say nothing. */
-export function placesOf(text: string): Place[] {
-  const places: Place[] = []
-  let pause: Pause = 'none'
-  for (const word of wordsOf(text)) {
-    if (word.pause) pause = pause === 'stop' ? 'stop' : word.pause
-    if (!word.place) continue
-    if (places.length === kMostPlaces) throw new UtteranceFault('tooManyPlaces', word.from)
-    places.push({ ...word.place, pause: places.length > 0 ? pause : 'none' })
-    pause = 'none'
-  }
-  return places
-}
-
-/** A name as it must be typed to come out the same. */
+/** A name as it must be typed: quoted if the server would otherwise read something else. */
 export function quoted(name: string): string {
-  const bare = name !== '' && name !== ',' && name !== '.' && !name.startsWith('"') && !/[ \t-\r]/.test(name) && splitBare(name).suffix === ''
+  const bare = name !== '' && !/^[,.]$|^"|[ \t-\r]|.#\d+$|.@\d+\.\.\d+$/s.test(name)
   return bare ? name : `"${name}"`
 }
 

@@ -11,7 +11,7 @@ const en = {
   motion: 'Motion',
   meaning: 'Meaning',
   made: 'New signing',
-  ways: 'Where to start',
+  entries: 'Where to start',
   demo: 'Explore the demo',
   demoWhat: 'Recordings of a synthetic signer, to try everything with. They show what the studio does, but are not examples of a sign language.',
   openDemo: 'Open {name}',
@@ -46,7 +46,7 @@ const fr: Messages = {
   motion: 'Mouvement',
   meaning: 'Sens',
   made: 'Nouvel énoncé',
-  ways: 'Par où commencer',
+  entries: 'Par où commencer',
   demo: 'Explorer la démo',
   demoWhat:
     'Des enregistrements d’un signeur synthétique, pour tout essayer. Ils montrent ce que fait le studio, mais ne sont pas des exemples de ' +

@@ -18,13 +18,13 @@ export interface Skeleton {
 }
 
 /** The position of a part of the body: a joint, or a tip, which is an offset (metres) from its joint. */
-export interface Part {
+export interface RigPart {
   readonly joint: number
   readonly offset?: readonly [number, number, number]
 }
 
 /** Maps parts to joints, by the names of docs/rig.md, such as `left_hand` or `right_index_tip`. */
-export type Rig = { readonly [part: string]: Part | undefined }
+export type Rig = { readonly [part: string]: RigPart | undefined }
 
 /** Returns the joints from the root to `joint`, both included. */
 export function chainTo(skeleton: Skeleton, joint: number): number[] {

@@ -20,7 +20,7 @@ function wearing() {
     },
     shown: (name) => events.push(`shown ${name}`),
     progress: () => events.push('progress'),
-    note: (fault) => events.push(`beside: ${(fault as Error).message}`),
+    note: (fault) => events.push(`compared: ${(fault as Error).message}`),
     fail: (fault) => events.push(`none: ${(fault as Error).message}`),
   })
   const settled = () => new Promise((resolve) => setTimeout(resolve))
@@ -43,7 +43,7 @@ it('keeps the current motions until the same are open in other joints', async ()
   worn.wear('d')
   made.get('d')!.broken(new Error('no d'))
   await settled()
-  expect(events.slice(4)).toEqual(['closed d', 'beside: no d'])
+  expect(events.slice(4)).toEqual(['closed d', 'compared: no d'])
   worn.close()
   made.get('c')!.source.onProgress?.(true)
   expect(events.slice(6)).toEqual(['closed c'])

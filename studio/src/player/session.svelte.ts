@@ -118,7 +118,7 @@ export class Session implements Showing {
     const recorded = (name: string) => new RecordingSource(api, database, name, character, this.transport.time)
     if (shown.page === 'recording') {
       // The second recording may fail without affecting the first.
-      const other = shown.beside ? opening.strand('beside', recorded(shown.beside)).catch((fault: unknown) => this.note(fault)) : undefined
+      const other = shown.compare ? opening.strand('compared', recorded(shown.compare)).catch((fault: unknown) => this.note(fault)) : undefined
       const [main, second] = await Promise.all([opening.strand('only', recorded(shown.recording)), other])
       return { strands: second ? [main, second] : [main], main }
     }

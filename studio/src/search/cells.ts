@@ -1,7 +1,7 @@
 import { shownRows } from '../ui/rows'
 
 /** The layout of cells in a window: as many columns as fit, widened to fill the width. */
-export interface Layout {
+export interface CellGrid {
   readonly columns: number
   readonly width: number
   /** The width of the picture. */ readonly picture: number
@@ -12,7 +12,7 @@ export const kCaption = 48
 export const kSizes = { small: 132, medium: 184, large: 268 } as const
 export type Size = keyof typeof kSizes
 
-export function layoutOf(width: number, size: Size): Layout {
+export function layoutOf(width: number, size: Size): CellGrid {
   // Two columns on a phone, unless the size is large.
   const wanted = size === 'large' ? kSizes.large : Math.min(kSizes[size], Math.max(kSizes.small, (width - kGap) / 2))
   const columns = Math.max(1, Math.floor((width + kGap) / (wanted + kGap)))
@@ -22,7 +22,7 @@ export function layoutOf(width: number, size: Size): Layout {
 }
 
 /** Returns the cells to create for a scroll position, and the position of their first row. */
-export function shownCells(count: number, { columns, step }: Layout, scroll: number, height: number, spare = 1) {
+export function shownCells(count: number, { columns, step }: CellGrid, scroll: number, height: number, spare = 1) {
   const { first, end, top } = shownRows(Math.ceil(count / columns), step, scroll, height, spare)
   return { first: first * columns, end: Math.min(count, end * columns), row: first, top }
 }

@@ -1,7 +1,7 @@
 import { expect, it } from 'vitest'
 import { AnswerReader, type Answer } from './answers'
 import { CsvReader } from './csv'
-import { csvOf, distinct, fileName, jsonOf } from './export'
+import { answerTier, csvOf, distinct, fileName, jsonOf } from './export'
 
 const answer = (at: number, more: Partial<Answer> = {}): Answer => ({
   at,
@@ -31,3 +31,11 @@ it('gives files valid and unique names', () => {
   expect(fileName(answer(0, { recording: 'a/b', name: 'LE MANS' }), 'bvh')).toBe('a-b_LE-MANS_10-20.bvh')
   expect(distinct(['a.bvh', 'a.bvh', 'b', 'b'])).toEqual(['a.bvh', 'a (2).bvh', 'b', 'b (2)'])
 })
+
+it('asks for tiers on which answers do not overlap', () =>
+  expect(answerTier([answer(0, { name: 'A' })])).toEqual({
+    name: 'query',
+    type: 'query answers',
+    spread: true,
+    annotations: [{ begin_ms: 10, end_ms: 20, label: 'A' }],
+  }))

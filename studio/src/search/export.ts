@@ -1,3 +1,4 @@
+import type { TierChanges } from '../api/corpus_calls'
 import type { Answer } from './answers'
 
 /** Writes answers as the server's CSV. */
@@ -28,8 +29,8 @@ export function jsonOf(found: readonly object[], wanted: readonly Answer[]): str
 }
 
 /** Returns the file name for an answer's motion, valid on any system. */
-export function fileName({ recording, name, begin, end }: Answer, ending: string): string {
-  return `${plain(recording)}_${plain(name).slice(0, 60)}_${begin}-${end}.${ending}`
+export function fileName({ recording, name, begin, end }: Answer, extension: string): string {
+  return `${plain(recording)}_${plain(name).slice(0, 60)}_${begin}-${end}.${extension}`
 }
 export function plain(text: string): string {
   return text.replace(/[\\/:*?"<>|\s\p{Cc}]+/gu, '-').replace(/^[-.]+|[-.]+$/g, '') || 'x'
@@ -44,6 +45,12 @@ export function byRecording(answers: readonly Answer[]): [recording: string, ans
     else found.set(answer.recording, [answer])
   }
   return [...found]
+}
+
+/** The tiers that show answers in an annotation, as `signweave query --format eaf` names them: without overlaps on a tier. */
+export function answerTier(answers: readonly Answer[]): NonNullable<TierChanges['tiers']>[number] {
+  const annotations = answers.map(({ name: label, begin: begin_ms, end: end_ms }) => ({ begin_ms, end_ms, label }))
+  return { name: 'query', type: 'query answers', spread: true, annotations }
 }
 
 /** Makes names unique. */

@@ -100,7 +100,7 @@ function drawRuler(context: CanvasRenderingContext2D, { window, colors, originMs
 const kStates: Readonly<Record<NonNullable<Annotation['state']>, string>> = { open: '?', accepted: '✓', unseen: '✓?', rejected: '✗' }
 
 function drawTier(context: CanvasRenderingContext2D, { window, colors, originMs }: Drawing, tier: Tier, y: number): void {
-  let from = firstEndingAfter(tier, window.begin * 1000 + originMs)
+  let from = firstEndAfter(tier, window.begin * 1000 + originMs)
   for (; from < tier.annotations.length; ++from) {
     const { begin, end, label, state, current } = tier.annotations[from]
     const left = window.x((begin - originMs) / 1000),
@@ -194,7 +194,7 @@ function drawFrames(
 }
 
 /** Returns the index of the first annotation of a tier that ends after `ms`, by binary search. */
-export function firstEndingAfter(tier: Tier, ms: number): number {
+export function firstEndAfter(tier: Tier, ms: number): number {
   let low = 0,
     high = tier.annotations.length
   while (low < high) {

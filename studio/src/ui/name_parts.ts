@@ -11,8 +11,8 @@ export interface NameParts {
 /** Splits a name into its begin, which may be cut, and its distinctive end: `bulletin-` and `meteo-12`. */
 export function nameParts(name: string, telling = kTelling): NameParts {
   const letters = [...new Intl.Segmenter().segment(name)].map(({ segment }) => segment)
-  const ending = /(?:\.[A-Za-z][A-Za-z0-9]{0,6}){1,2}$/.exec(name)?.[0].length ?? 0
-  const most = telling + ending
+  const extension = /(?:\.[A-Za-z][A-Za-z0-9]{0,6}){1,2}$/.exec(name)?.[0].length ?? 0
+  const most = telling + extension
   if (letters.length <= most + kShort) return { begin: name, end: '' }
   const at = letters.length - most
   const from = /^[-_ .]/.test(letters[at]) ? at + 1 : at // separators are not distinctive

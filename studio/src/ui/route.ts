@@ -6,7 +6,7 @@ export type Route =
       readonly page: 'recording'
       readonly database: string
       readonly recording: string
-      readonly beside?: string
+      readonly compare?: string
       readonly at: number
       /** The selection, in ms of annotation time. */ readonly span?: readonly [number, number]
     }
@@ -26,7 +26,7 @@ export type WorkPage = (typeof kWorkPages)[number]
 export const kWorkPages = ['compose', 'search', 'import', 'phases', 'evaluate', 'compare', 'guide'] as const
 
 /** Returns the address to go to from a missing recording or database: the database's recordings, otherwise the start page. */
-export function wayBack(hash: string): string {
+export function linkBack(hash: string): string {
   const [, database, , name] = hash.split('?')[0].split('/')
   return database && name ? `#/${database}` : '#/'
 }
@@ -52,7 +52,7 @@ export function parseRoute(hash: string): Route {
       page,
       database,
       recording: name,
-      beside: parameters.get('beside') ?? undefined,
+      compare: parameters.get('compare') ?? parameters.get('beside') ?? undefined,
       at: Math.max(0, Number(parameters.get('at')) || 0),
       span: spanOf(parameters.get('span')),
     }
@@ -85,7 +85,7 @@ export function addressOf(route: Route): string {
     case 'guide':
       return withQuery(parts(route.database, route.page, ...(route.recording ? [route.recording] : [])), new URLSearchParams(route.state))
     case 'recording':
-      if (route.beside) query.set('beside', route.beside)
+      if (route.compare) query.set('compare', route.compare)
       if (route.at) query.set('at', String(route.at))
       if (route.span) query.set('span', route.span.join('..'))
       return withQuery(parts(route.database, 'recording', route.recording), query)

@@ -4,7 +4,7 @@ import type { Transport } from './transport'
 /** One motion on display; the second and later ones follow the first. */
 export interface Strand {
   /** `blind` reveals nothing about the motion. */
-  readonly role: 'only' | 'original' | 'made' | 'beside' | 'blind'
+  readonly role: 'only' | 'original' | 'made' | 'compared' | 'blind'
   readonly source: MotionSource
   readonly motion: OpenedMotion
 }

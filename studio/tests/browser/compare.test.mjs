@@ -167,7 +167,7 @@ test('nothing on the screen, in the address or in the timing of requests reveals
   const held = new Promise((resolve) => (free = resolve))
   await page.route(/\/motion\?/, async (route) => {
     const url = new URL(route.request().url())
-    calls.push({ remake: url.searchParams.get('remake'), from: url.searchParams.get('from') })
+    calls.push({ regenerate: url.searchParams.get('regenerate'), from: url.searchParams.get('from') })
     // The second response is delayed: the first must not be shown alone.
     if (calls.length === 2) await held
     await route.fallback()
@@ -189,12 +189,12 @@ test('nothing on the screen, in the address or in the timing of requests reveals
     { from, to, begin: start } = items[trials[0].item]
   // In the order of the sides: over a study each order is equally frequent.
   assert.deepEqual(
-    calls.slice(0, 2).map(({ remake }) => Boolean(remake)),
+    calls.slice(0, 2).map(({ regenerate }) => Boolean(regenerate)),
     side === 'left' ? [false, true] : [true, false],
   )
   assert.equal(trials.filter((one) => one.side === 'left').length, 4)
   const said = await page.evaluate(() => document.documentElement.outerHTML + location.href + document.title)
-  for (const word of ['hermite', 'remake', 'meteo', 'villes', 'capture', 'original', 'Recorded', 'Generated '])
+  for (const word of ['hermite', 'regenerate', 'meteo', 'villes', 'capture', 'original', 'Recorded', 'Generated '])
     assert.ok(!said.includes(word), `${word} is revealed`)
 
   // The two are identical except for the gap, seen through one camera, and synchronized.
@@ -259,7 +259,7 @@ test('nothing on the screen, in the address or in the timing of requests reveals
   await seen()
   await until(() => assert.equal(calls.length, 6))
   assert.deepEqual(
-    calls.slice(2, 4).map(({ remake }) => Boolean(remake)),
+    calls.slice(2, 4).map(({ regenerate }) => Boolean(regenerate)),
     trials[1].side === 'left' ? [false, true] : [true, false],
   )
 })

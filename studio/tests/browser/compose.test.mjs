@@ -50,6 +50,10 @@ test('reports what cannot be signed, and keeps the previous result', async () =>
   await page.keyboard.press('Enter')
   await until(async () => assert.match(await page.getByRole('alert').textContent(), /never closed: "LE MA/))
   await until(async () => assert.deepEqual(await cards(), ['VANNES']))
+  // The fault is marked in the text, and its correction is offered.
+  assert.equal(await page.locator('.compose mark').textContent(), '"LE MA')
+  await button('Write VANNES "LE MA"').click()
+  await until(async () => assert.deepEqual([await field().inputValue(), await cards()], ['VANNES "LE MA"', ['VANNES', 'LE MA']]))
 })
 
 test('offers suggestions, and applies one', async () => {

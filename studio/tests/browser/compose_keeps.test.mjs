@@ -69,6 +69,28 @@ test('keeps the last change: if the page is left at once, and if a slow task fol
   await until(async () => assert.deepEqual(await cards(), ['VANNES']))
 })
 
+test('keeps the signs while a text is read, and takes no older text for a newer one', async () => {
+  await compose('VANNES')
+  let go, asked
+  const held = new Promise((resolve) => (go = resolve)),
+    asking = new Promise((resolve) => (asked = resolve))
+  await page.route('**/utterance', async (route) => {
+    if (route.request().postDataJSON().text === 'VANNES MATIN ') {
+      asked()
+      await held
+    }
+    await route.continue().catch(() => {}) // the page gave the older request up
+  })
+  await field().fill('VANNES MATIN ')
+  await asking
+  assert.deepEqual(await cards(), ['VANNES'])
+  await field().fill('VANNES PLUIE NUAGES ')
+  await until(async () => assert.deepEqual(await cards(), ['VANNES', 'PLUIE', 'NUAGES']))
+  go()
+  await shown('VANNES PLUIE NUAGES')
+  assert.deepEqual([await field().inputValue(), await cards()], ['VANNES PLUIE NUAGES ', ['VANNES', 'PLUIE', 'NUAGES']])
+})
+
 test('signs what was typed before the glosses were loaded', async () => {
   await visit('')
   let go

@@ -2,7 +2,23 @@
 import assert from 'node:assert/strict'
 import { copyFileSync, existsSync, mkdirSync, readdirSync, rmSync, writeFileSync } from 'node:fs'
 import { join } from 'node:path'
-import { annotation, asBefore, begin, button, choose, faultsOf, files, kThanks, kWays, look, row, settled, store, stored, storedOne } from './corpus_tools.mjs'
+import {
+  annotation,
+  asBefore,
+  begin,
+  button,
+  choose,
+  faultsOf,
+  files,
+  kThanks,
+  kViewports,
+  look,
+  row,
+  settled,
+  store,
+  stored,
+  storedOne,
+} from './corpus_tools.mjs'
 import { withServer } from './server.mjs'
 import { address, context, folder, mainTest, page, test, visit } from './suite.mjs'
 import { until } from './waits.mjs'
@@ -217,7 +233,7 @@ test('reports the effect on a known recording, and pairs files on request', asyn
   await choose([...files('plain', { change: other }), ...files('alone', { motion: false })])
   await look()
   await row('plain').click()
-  await page.getByText('The database has a recording of this name').waitFor()
+  await page.getByText('The database has the recording “plain”. The import changes: annotation (replaced)').waitFor()
   await row('alone').click()
   await until(async () => assert.match(await page.locator('article').textContent(), /it can be searched, not signed/))
   // The motion is paired with an annotation of another name, and separated again; unused files are reported.
@@ -238,12 +254,14 @@ test('reports the effect on a known recording, and pairs files on request', asyn
   await page.locator('#one-unit').fill('0.03')
   await page.keyboard.press('Tab')
   await settled()
+  await page.getByText(/The import would be rejected: .*is not the motion that recording 'plain' was imported from/).waitFor()
+  await until(async () => assert.match(await row('plain').textContent(), /would be rejected/))
   await page.getByRole('button', { name: /^Import 1$/ }).click()
   await page.getByText('Not stored: 1').waitFor()
   await until(async () => assert.match(await page.locator('article').textContent(), /is not the motion that recording 'plain' was imported from/))
   await page.locator('article').getByLabel('Replace the stored motion and face').check()
   await settled()
-  await page.getByText('annotation, motion and face are replaced by these files').waitFor()
+  await page.getByText('The import changes: annotation (replaced), motion (replaced)').waitFor()
   await page.getByRole('button', { name: /^Import 1$/ }).click()
   await page.getByText('Stored: 1').waitFor()
   await until(async () => assert.match(await row('plain').textContent(), /motion replaced/))
@@ -507,7 +525,7 @@ test('shows thousands of recordings without drawing them', async () => {
   await page.getByText('11 of 20,000').waitFor()
 })
 
-for (const { name, size, set } of kWays) {
+for (const { name, size, set } of kViewports) {
   test(`an accessibility checker finds nothing in import and recordings, ${name}`, async () => {
     if (!page) await visit('')
     await set()

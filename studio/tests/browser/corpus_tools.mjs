@@ -75,7 +75,7 @@ export async function faultsOf(what) {
   return [...(await axeFaults(page)).map((fault) => `${what}: ${fault}`), ...wide.map((element) => `${what} is wider than the screen: ${element}`)]
 }
 /** The configurations in which everything must be accessible. */
-export const kWays = [
+export const kViewports = [
   ['dark', 'en', 1280, 720],
   ['dark', 'en', 390, 844],
   ['light', 'fr', 1280, 720],

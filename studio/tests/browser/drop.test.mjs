@@ -3,7 +3,7 @@ import assert from 'node:assert/strict'
 import { writeFileSync } from 'node:fs'
 import { join } from 'node:path'
 import { withBrowser } from './chromium.mjs'
-import { button, files, kWays, asBefore } from './corpus_tools.mjs'
+import { button, files, kViewports, asBefore } from './corpus_tools.mjs'
 import { axeFaults } from './page_tools.mjs'
 import { withServer } from './server.mjs'
 import { context, faults, folder, mainTest, page, plainTest, site, test, visit } from './suite.mjs'
@@ -204,7 +204,7 @@ plainTest('rejects files without signing in and with read-only access, and says 
   ),
 )
 
-for (const { name, size, set } of kWays) {
+for (const { name, size, set } of kViewports) {
   test(`an accessibility checker finds nothing while files are dragged, ${name}`, async () => {
     if (!page) await visit('')
     await set()

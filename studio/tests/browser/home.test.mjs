@@ -1,6 +1,6 @@
 // The start page, and the pages of an empty database.
 import assert from 'node:assert/strict'
-import { asBefore, empty, faultsOf, files, kWays, store } from './corpus_tools.mjs'
+import { asBefore, empty, faultsOf, files, kViewports, store } from './corpus_tools.mjs'
 import { kDeclared, mainTest, page, test, visit } from './suite.mjs'
 import { until } from './waits.mjs'
 
@@ -98,7 +98,7 @@ test('an empty database accepts files, by hand or from the command line', async 
   assert.equal(await link('Import').count(), 0)
 })
 
-for (const { name, size, set } of kWays) {
+for (const { name, size, set } of kViewports) {
   test(`an accessibility checker finds nothing on the start page and in an empty database, ${name}`, async () => {
     if (!page) await visit('')
     await set()

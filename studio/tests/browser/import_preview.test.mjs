@@ -47,12 +47,12 @@ const kBones = [
 const lines = (...all) => all.map((line) => `${line}\n`).join('')
 /** ASF and AMC with a vertical z axis, which the formats do not specify: two seconds in which an arm is raised. */
 function zUp(name) {
-  const bones = kBones.map(([bone, , way, length], id) =>
+  const bones = kBones.map(([bone, , direction, length], id) =>
     lines(
       'begin',
       `id ${id + 1}`,
       `name ${bone}`,
-      `direction ${way.join(' ')}`,
+      `direction ${direction.join(' ')}`,
       `length ${length}`,
       'axis 0 0 0 XYZ',
       ...(bone === 'rhumerus' ? ['dof rx', 'limits (-180 180)'] : []),

@@ -3,7 +3,7 @@ import assert from 'node:assert/strict'
 import { execFileSync } from 'node:child_process'
 import { readFileSync } from 'node:fs'
 import { join } from 'node:path'
-import { annotation, asBefore, button, empty, faultsOf, kSignweave, kWays, store } from './corpus_tools.mjs'
+import { annotation, asBefore, button, empty, faultsOf, kSignweave, kViewports, store } from './corpus_tools.mjs'
 import { transport } from './page_tools.mjs'
 import { address, context, faults, folder, page, test, visit } from './suite.mjs'
 import { until } from './waits.mjs'
@@ -257,7 +257,7 @@ test('saves checked phases next to the annotation, as EAF and in the database, a
   )
 })
 
-for (const { name, size, set } of kWays) {
+for (const { name, size, set } of kViewports) {
   test(`an accessibility checker finds nothing in phases, ${name}`, async () => {
     if (!page) await visit('')
     await set()

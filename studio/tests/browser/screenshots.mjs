@@ -26,7 +26,7 @@ const kViews = [
   { name: 'man', hash: '#/demo/recording/meteo?at=7.6', body: 'man' },
   { name: 'drawn', hash: '#/demo/recording/meteo?at=2.2', body: 'drawn' },
   { name: 'drawn_face', hash: '#/demo/recording/meteo?at=2.2', body: 'drawn', keys: ['5'] },
-  { name: 'two_recordings', hash: '#/demo/recording/meteo?at=2.2&beside=villes' },
+  { name: 'two_recordings', hash: '#/demo/recording/meteo?at=2.2&compare=villes' },
   { name: 'scenario_1', hash: kEdit, seek: 29.4, keys: ['+', '+', '+'] },
   { name: 'signed', hash: '#/demo/sign/' + encodeURIComponent('VANNES MATIN , "LE MANS" PLUIE'), keys: ['Space'], seek: 1.4 },
   { name: 'live', hash: '#/demo/sign/' + encodeURIComponent('VANNES MATIN') + '?pace=live' },

@@ -3,7 +3,7 @@ import ts from 'typescript'
 
 const kCode = /\.(ts|js|mjs|svelte)$/
 /** The parts of an imported file's name that may be omitted; `./x.svelte` may also be `./x.svelte.ts`. */
-const kEndings = ['', '.ts', '.js', '.mjs']
+const kExtensions = ['', '.ts', '.js', '.mjs']
 
 /** Returns a file's imports within the tree: types, values and dynamic imports. */
 function importsOf({ path, text }) {
@@ -24,7 +24,7 @@ export function importGraph(files) {
   for (const file of files.filter(({ path }) => kCode.test(path))) {
     const imports = new Set()
     for (const wanted of importsOf(file)) {
-      const found = kEndings.map((ending) => wanted + ending).find((path) => known.has(path))
+      const found = kExtensions.map((extension) => wanted + extension).find((path) => known.has(path))
       if (found) imports.add(found)
       else faults.push(`${file.path} imports ${wanted}, which does not exist`)
     }

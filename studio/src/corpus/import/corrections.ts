@@ -72,7 +72,7 @@ export function settingOf(all: Corrections, one: Corrections | undefined, name: 
   return one?.settings[name] || all.settings[name] || ''
 }
 
-export const fits = ({ of }: Setting, motion: string | null) => !of || (motion !== null && of.some((ending) => motion.toLowerCase().endsWith(ending)))
+export const fits = ({ of }: Setting, motion: string | null) => !of || (motion !== null && of.some((extension) => motion.toLowerCase().endsWith(extension)))
 
 /** Whether a setting can be sent as it was typed. */
 export const isRight = ({ pattern }: Setting, value: string) => value === '' || !pattern || pattern.test(value.trim())

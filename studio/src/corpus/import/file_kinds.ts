@@ -3,7 +3,7 @@ import type { FormatRow } from '../../api/corpus_answers'
 /** The role of a file in an import. A companion is read together with another file; a table of pairs and a mapping file are read here, and not sent. */
 export type FileKind = 'motion' | 'skeleton' | 'annotation' | 'face' | 'companion' | 'pairs' | 'rig'
 /** Why a file cannot be sent. */
-export type Refusal = 'ending' | 'film' | 'name'
+export type Refusal = 'extension' | 'film' | 'name'
 
 const kKinds: Readonly<Record<string, FileKind>> = {
   '.bvh': 'motion',
@@ -21,42 +21,42 @@ const kCompanions: Readonly<Record<string, string>> = { '.bin': '.gltf', '.xml':
 const kFilms = /\.(mp4|m4v|mov|avi|mpe?g|mkv|webm|wav|mp3)$/i
 
 /** Returns the longest extension that the server knows: `.face.csv` before `.csv`. A hidden file has none. */
-export function endingOf(name: string, formats: readonly FormatRow[]): FormatRow | undefined {
+export function extensionOf(name: string, formats: readonly FormatRow[]): FormatRow | undefined {
   const lower = name.toLowerCase()
   let best: FormatRow | undefined
   for (const format of formats) {
-    if (lower.length > format.ending.length && lower.endsWith(format.ending) && (!best || format.ending.length > best.ending.length)) best = format
+    if (lower.length > format.extension.length && lower.endsWith(format.extension) && (!best || format.extension.length > best.extension.length)) best = format
   }
   return best
 }
 
 /** Returns the name of the recording built from this file: the file name without the extension. */
 export function stemOf(name: string, formats: readonly FormatRow[]): string {
-  const format = endingOf(name, formats)
-  return format ? name.slice(0, -format.ending.length) : name.replace(/\.[^.]*$/, '')
+  const format = extensionOf(name, formats)
+  return format ? name.slice(0, -format.extension.length) : name.replace(/\.[^.]*$/, '')
 }
 
 /** Returns the extensions that can be imported, for a file dialog. */
-export function readableEndings(formats: readonly FormatRow[]): readonly string[] {
-  return formats.filter(({ reads }) => reads).map(({ ending }) => ending)
+export function readableExtensions(formats: readonly FormatRow[]): readonly string[] {
+  return formats.filter(({ reads }) => reads).map(({ extension }) => extension)
 }
 
 /** Returns the kind of a file, or why it cannot be sent. `names` are those of all files, because some are read together. */
 export function kindOf(name: string, formats: readonly FormatRow[], names: readonly string[]): FileKind | Refusal {
   if (!isPlain(name)) return 'name'
-  const format = endingOf(name, formats)
-  if (format?.reads) return kKinds[format.ending] ?? 'motion'
+  const format = extensionOf(name, formats)
+  if (format?.reads) return kKinds[format.extension] ?? 'motion'
   const lower = name.toLowerCase(),
     dot = lower.lastIndexOf('.'),
-    ending = dot > 0 ? lower.slice(dot) : ''
-  const partner = kCompanions[ending]
+    extension = dot > 0 ? lower.slice(dot) : ''
+  const partner = kCompanions[extension]
   if (partner && names.some((other) => other.toLowerCase().endsWith(partner))) return 'companion'
-  if (ending === '.csv' && !/\.rotations\.csv$/.test(lower)) return 'pairs'
-  if (ending === '.rig') return 'rig'
-  return kFilms.test(lower) ? 'film' : 'ending'
+  if (extension === '.csv' && !/\.rotations\.csv$/.test(lower)) return 'pairs'
+  if (extension === '.rig') return 'rig'
+  return kFilms.test(lower) ? 'film' : 'extension'
 }
 
-export const isRefusal = (kind: FileKind | Refusal): kind is Refusal => kind === 'ending' || kind === 'film' || kind === 'name'
+export const isRefusal = (kind: FileKind | Refusal): kind is Refusal => kind === 'extension' || kind === 'film' || kind === 'name'
 
 /** The server's rule for uploaded files: no folders, no ':', no leading dot, at most 200 bytes. */
 export function isPlain(name: string): boolean {

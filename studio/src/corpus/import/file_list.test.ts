@@ -1,9 +1,9 @@
 import { expect, it } from 'vitest'
 import type { FormatRow } from '../../api/corpus_answers'
-import { kindOf, readableEndings, stemOf } from './file_kinds'
+import { kindOf, readableExtensions, stemOf } from './file_kinds'
 import { added, bytesOf, kNoFiles, sendable, withFolderNames, without } from './file_list'
 
-const row = (ending: string, reads: boolean): FormatRow => ({ ending, name: ending, reads, writes: false, holds: '' })
+const row = (extension: string, reads: boolean): FormatRow => ({ extension, name: extension, reads, writes: false, holds: '' })
 const kFormats = [row('.bvh', true), row('.gltf', true), row('.eaf', true), row('.anvil', true), row('.csv', false), row('.face.csv', true), row('.svg', false)]
 const picked = (path: string, text = 'x') => ({ file: new File([text], path.split('/').at(-1)!), folder: path.split('/').slice(0, -1).join('/') })
 const names = (list: { files: readonly { name: string }[] }) => list.files.map(({ name }) => name)
@@ -18,17 +18,17 @@ it('determines the kinds of files, and rejects those that the server cannot read
     'pairs',
     'rig',
     'companion',
-    'ending',
+    'extension',
     'film',
-    'ending',
+    'extension',
     'name',
     'name',
-    'ending',
+    'extension',
   ])
-  expect(kindOf('walk.bin', kFormats, ['walk.bin'])).toBe('ending')
+  expect(kindOf('walk.bin', kFormats, ['walk.bin'])).toBe('extension')
   expect(kindOf(`${'é'.repeat(99)}.bvh`, kFormats, [])).toBe('name')
   expect(stemOf('walk.face.csv', kFormats)).toBe('walk')
-  expect(readableEndings(kFormats)).toEqual(['.bvh', '.gltf', '.eaf', '.anvil', '.face.csv'])
+  expect(readableExtensions(kFormats)).toEqual(['.bvh', '.gltf', '.eaf', '.anvil', '.face.csv'])
 })
 
 it('adds files once, and skips hidden files in folders', () => {

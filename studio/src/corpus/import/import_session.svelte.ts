@@ -4,7 +4,7 @@ import { formats, isWritable, previewUpload } from '../../api/corpus_calls'
 import type { OpenedMotion } from '../../motion/source'
 import { wholeMotion } from '../../motion/whole_motion'
 import { grouped, kNone, readRig, type Corrections, type Group } from './corrections'
-import { endingOf, isRefusal, stemOf } from './file_kinds'
+import { extensionOf, isRefusal, stemOf } from './file_kinds'
 import { added, kNoFiles, sendable, withFolderNames, without, type FileList, type Picked } from './file_list'
 import { extended, keyOf, paired, readTable, tableOf, type Pair, type TableFault } from './pairs'
 import { failedBy, isCancelled, isOfTheCall, withGood } from './reports'
@@ -422,6 +422,6 @@ export class ImportSession {
   readonly stemOf = (name: string): string => stemOf(name, this.formats)
   /** Returns the name of a file's format. */
   formatOf(name: string): string {
-    return endingOf(name, this.formats)?.name ?? ''
+    return extensionOf(name, this.formats)?.name ?? ''
   }
 }

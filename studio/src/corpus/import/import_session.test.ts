@@ -22,7 +22,7 @@ const server = vi.hoisted(() => ({
   onbegin: undefined as (() => void) | undefined,
 }))
 vi.mock('../../api/corpus_calls', () => ({
-  formats: () => Promise.resolve(['.bvh', '.eaf'].map((ending) => ({ ending, name: ending, reads: true, writes: true, holds: '' }))),
+  formats: () => Promise.resolve(['.bvh', '.eaf'].map((extension) => ({ extension, name: extension, reads: true, writes: true, holds: '' }))),
   isWritable: () => Promise.resolve(true),
   openUpload: () => Promise.resolve(`upload ${++server.opened}`),
   sendFile: async (_api: unknown, _database: string, _upload: string, name: string, file: Blob) => void server.put.set(name, await file.text()),

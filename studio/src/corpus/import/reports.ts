@@ -34,7 +34,7 @@ export function withGood(fresh: readonly Inspected[], before: readonly Inspected
     if (!one.error || !good) return one
     if (!good.error && isCorrected(key) && JSON.stringify(good.files) === JSON.stringify(one.files)) {
       errors.set(key, one.error)
-      return { ...good, known: one.known }
+      return { ...good, known: one.known, plan: undefined }
     }
     // Its body is that of the same motion, whatever else belongs to it now.
     return one.files.motion ? { ...one, rig: good.rig, joints: good.joints } : one

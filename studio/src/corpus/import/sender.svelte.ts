@@ -43,7 +43,7 @@ export class Sender {
       } catch (fault) {
         if (!(fault instanceof ApiError && fault.status === 404) || isGone(fault)) throw fault
       }
-      this.untold(id)
+      this.clearState(id)
     }
   }
 
@@ -84,7 +84,7 @@ export class Sender {
     if (upload) discardUpload(this.api, this.database, upload).catch(() => {}) // the server removes it after a time without use
   }
 
-  private untold(id: number): void {
+  private clearState(id: number): void {
     const rest = new Map(this.states)
     rest.delete(id)
     this.states = rest
@@ -112,7 +112,7 @@ export class Sender {
       update({ state: 'sent', bytes: file.size, name })
     } catch (fault) {
       if (signal.aborted) {
-        this.untold(id)
+        this.clearState(id)
         return
       }
       if (isGone(fault)) throw fault

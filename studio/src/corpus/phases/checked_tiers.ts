@@ -1,6 +1,5 @@
-import type { AnnotationDocument } from '../../annotation/document'
-import { eafRoot, EafWriter } from '../../annotation/eaf_writer'
-import { escaped, unescaped, type Element } from '../../annotation/xml_text'
+import type { AnnotationDocument, Tier } from '../../annotation/document'
+import type { TierChanges } from '../../api/corpus_calls'
 import { kEmpty, kHands, put, type Hand, type Phase, type Review } from './review'
 
 /// Phases checked by a person, in an EAF: a separate tier for each hand next to the signs, like the proposals written by `signweave segment`. They need not
@@ -17,15 +16,15 @@ const pattern = (hand: Hand) => new RegExp(`^Phase ${hand === 'right' ? 'RH' : '
 export const isChecked = (tier: string): Hand | undefined => kHands.find((hand) => pattern(hand).test(tier))
 
 /**
- * Returns the checked phases of a document, from the newest tier of each hand; undefined if it has none. `text` is the document's text, which records which
- * were accepted unseen.
+ * Returns the checked phases of a document, from the newest tier of each hand; undefined if it has none. A property of the document records which were accepted
+ * unseen.
  */
-export function readChecked({ tiers }: AnnotationDocument, text = ''): Review | undefined {
+export function readChecked(document: AnnotationDocument): Review | undefined {
   let review = kEmpty,
     any = false
-  const unseen = new Map(text.includes(kUnseen) ? unseenIn(new EafWriter(text)) : [])
+  const unseen = new Map(unseenIn(document))
   for (const hand of kHands) {
-    const tier = tiers.filter(({ name }) => pattern(hand).test(name)).sort((a, b) => numberOf(b.name) - numberOf(a.name))[0]
+    const tier = document.tiers.filter(({ name }) => pattern(hand).test(name)).sort((a, b) => numberOf(b.name) - numberOf(a.name))[0]
     any ||= tier !== undefined
     const passed = unseen.get(tier?.name ?? '')
     let end = 0
@@ -37,19 +36,17 @@ export function readChecked({ tiers }: AnnotationDocument, text = ''): Review | 
   }
   return any ? review : undefined
 }
-function unseenIn(writer: EafWriter): readonly (readonly [tier: string, begins: readonly number[]])[] {
-  return unescaped(writer.property(kUnseen) ?? '')
-    .split('; ')
-    .flatMap((one) => {
-      const [, tier, begins] = /^(.+): ([\d ]+)$/.exec(one) ?? []
-      return tier ? [[tier, begins.split(' ').map(Number)] as const] : []
-    })
+function unseenIn({ properties }: AnnotationDocument): readonly (readonly [tier: string, begins: readonly number[]])[] {
+  return (properties?.[kUnseen] ?? '').split('; ').flatMap((one) => {
+    const [, tier, begins] = /^(.+): ([\d ]+)$/.exec(one) ?? []
+    return tier ? [[tier, begins.split(' ').map(Number)] as const] : []
+  })
 }
 const numberOf = (name: string) => Number(/(\d+)\)$/.exec(name)?.[1] ?? 1)
 
-/** What was written: the tier of each hand, and its number of phases. */
+/** What is written: the changes, and of each hand's tier its number of phases. */
 export interface Written {
-  readonly text: string
+  readonly changes: TierChanges
   readonly tiers: readonly {
     readonly hand: Hand
     readonly name: string
@@ -58,79 +55,78 @@ export interface Written {
   }[]
 }
 
-/** Context of a review for writing: hands whose tiers were written by someone else meanwhile, so that those stay and ours get another name. */
-export interface WriteOptions {
-  readonly hands?: readonly Hand[]
-  /** The root of the text, if it is already parsed. */ readonly root?: Element
-}
-
 /**
- * Returns the document with the accepted phases. Its bytes are unchanged except for: the tiers written before, which are rewritten (under another name if other
- * tiers depend on them), new time slots in their places, a tier type, and properties. Throws if the text is not an EAF. `person` may be empty.
+ * Returns the changes that put the accepted phases into a document: the tiers written before are rewritten, under another name if other tiers depend on them or
+ * if `kept` names their hand, because someone else wrote them meanwhile. `person` may be empty.
  */
-export function writeChecked(text: string, review: Review, person: string, { hands = [], root = eafRoot(text) }: WriteOptions = {}): Written {
-  const writer = new EafWriter(text, root)
-  const made = kHands.flatMap((hand) =>
-    writeHand(
-      writer,
+export function checkedTiers(document: AnnotationDocument, review: Review, person: string, kept: readonly Hand[] = []): Written {
+  const hands = kHands.map((hand) =>
+    handTier(
+      document.tiers,
       hand,
       review.phases[hand].filter(({ state }) => state === 'accepted'),
-      person,
-      hands.includes(hand),
+      kept.includes(hand),
     ),
   )
-  const names = made.map(({ name }) => name),
-    unseen = made.filter(({ unseen }) => unseen.length > 0)
-  if (names.length > 0 || writer.property(kProperty) !== undefined)
-    writer.setProperty(kProperty, names.length > 0 ? `${names.join(', ')}: ${howChecked(made, person)}` : 'none')
+  const remove = hands.flatMap((one) => one.remove ?? []),
+    made = hands.flatMap((one) => one.made ?? []),
+    names = made.map(({ name }) => name)
+  const properties: { name: string; value: string }[] = []
+  if (names.length > 0 || document.properties?.[kProperty] !== undefined)
+    properties.push({ name: kProperty, value: names.length > 0 ? `${names.join(', ')}: ${howChecked(made, person)}` : 'none' })
   // The entries of tiers that stay are preserved.
-  const others = unseenIn(writer).filter(([name]) => !names.includes(name) && writer.stays(name))
-  const kept = [...others, ...unseen.map(({ name, unseen }) => [name, unseen] as const)].map(([name, begins]) => `${name}: ${begins.join(' ')}`).join('; ')
-  if (kept || writer.property(kUnseen) !== undefined) writer.setProperty(kUnseen, kept || 'none')
-  return { text: writer.written(), tiers: made.map(({ unseen, ...tier }) => ({ ...tier, unseen: unseen.length })) }
-}
-
-type Made = Omit<Written['tiers'][number], 'unseen'> & { /** Begins of phases that were accepted unseen. */ readonly unseen: readonly number[] }
-
-/** Writes a hand's tier in place of the previous one; returns nothing if there are no phases. */
-function writeHand(writer: EafWriter, hand: Hand, phases: readonly Phase[], person: string, keepExisting: boolean): readonly Made[] {
-  const names = new Set(writer.tiers.map(({ attributes }) => attributes.TIER_ID))
-  const ours = writer.tiers
-    .filter(({ attributes }) => pattern(hand).test(attributes.TIER_ID))
-    .sort((a, b) => numberOf(b.attributes.TIER_ID) - numberOf(a.attributes.TIER_ID))[0]
-  let name = ours?.attributes.TIER_ID ?? kTier[hand]
-  if (ours && (keepExisting || writer.tiers.some(({ attributes }) => attributes.PARENT_REF === name))) {
-    let number = numberOf(name)
-    while (names.has(name)) name = kTier[hand].replace(')', ` ${++number})`)
-  } else if (ours) writer.remove(ours)
-  if (phases.length === 0) return []
-  const unseen = phases.filter((one) => one.unseen).map(({ begin }) => begin)
-  const how = unseen.length === 0 ? 'checked' : unseen.length < phases.length ? 'partly checked' : 'accepted unseen'
-  writer.add({
-    name,
-    type: kType,
-    annotator: `signweave, ${how} by ${person || 'a person'}`,
-    participant: ours?.attributes.PARTICIPANT ?? participantOf(writer.tiers),
-    annotations: phases.map(({ begin, end, kind }) => ({ begin, end, label: kind })),
+  const stays = (name: string) => document.tiers.some((one) => one.name === name) && !remove.includes(name)
+  const unseen = [
+    ...unseenIn(document).filter(([name]) => !names.includes(name) && stays(name)),
+    ...made.filter(({ unseen }) => unseen.length > 0).map(({ name, unseen }) => [name, unseen] as const),
+  ]
+  const value = unseen.map(([name, begins]) => `${name}: ${begins.join(' ')}`).join('; ')
+  if (value || document.properties?.[kUnseen] !== undefined) properties.push({ name: kUnseen, value: value || 'none' })
+  const tiers = made.map(({ name, phases, participant, unseen }) => {
+    const how = unseen.length === 0 ? 'checked' : unseen.length < phases.length ? 'partly checked' : 'accepted unseen'
+    const annotations = phases.map(({ begin: begin_ms, end: end_ms, kind: label }) => ({ begin_ms, end_ms, label }))
+    return { name, type: kType, annotator: `signweave, ${how} by ${person || 'a person'}`, participant, annotations }
   })
-  return [{ hand, name, count: phases.length, unseen }]
+  return {
+    changes: { remove, tiers, properties },
+    tiers: made.map(({ hand, name, phases, unseen }) => ({ hand, name, count: phases.length, unseen: unseen.length })),
+  }
 }
 
-function howChecked(made: readonly Made[], person: string): string {
+interface HandTier {
+  readonly hand: Hand
+  readonly name: string
+  readonly phases: readonly Phase[]
+  readonly participant?: string
+  /** Begins of phases that were accepted unseen. */ readonly unseen: readonly number[]
+}
+
+/** The tier of a hand, and the previous one in whose place it is written; no tier if there are no phases. */
+function handTier(tiers: readonly Tier[], hand: Hand, phases: readonly Phase[], keepExisting: boolean): { readonly remove?: string; readonly made?: HandTier } {
+  const ours = tiers.filter(({ name }) => pattern(hand).test(name)).sort((a, b) => numberOf(b.name) - numberOf(a.name))[0]
+  let name = ours?.name ?? kTier[hand]
+  const stays = ours && (keepExisting || tiers.some(({ parent }) => parent === name))
+  if (stays) {
+    let number = numberOf(name)
+    while (tiers.some((one) => one.name === name)) name = kTier[hand].replace(')', ` ${++number})`)
+  }
+  const remove = ours && !stays ? ours.name : undefined
+  if (phases.length === 0) return { remove }
+  const unseen = phases.filter((one) => one.unseen).map(({ begin }) => begin)
+  return { remove, made: { hand, name, phases, participant: ours?.participant ?? participantOf(tiers), unseen } }
+}
+
+function howChecked(made: readonly HandTier[], person: string): string {
   const who = person || 'a person',
-    all = made.reduce((sum, { count }) => sum + count, 0),
+    all = made.reduce((sum, { phases }) => sum + phases.length, 0),
     unseen = made.reduce((sum, one) => sum + one.unseen.length, 0)
   if (unseen === 0) return `proposed by signweave from motion alone, each phase checked by ${who}`
   return `proposed by signweave from motion alone, ${all - unseen} of ${all} phases checked by ${who}, ${unseen} accepted all at once without being looked at`
 }
 
 /** Returns the signer, if all original tiers name the same one. */
-function participantOf(tiers: readonly Element[]): string | undefined {
-  const said = new Set(
-    tiers
-      .filter(({ attributes }) => !attributes.PARENT_REF && isChecked(attributes.TIER_ID) === undefined)
-      .map(({ attributes }) => attributes.PARTICIPANT ?? ''),
-  )
+function participantOf(tiers: readonly Tier[]): string | undefined {
+  const said = new Set(tiers.filter(({ name, parent }) => !parent && isChecked(name) === undefined).map(({ participant }) => participant ?? ''))
   return said.size === 1 ? [...said][0] || undefined : undefined
 }
 
@@ -150,17 +146,3 @@ function hashOf(text: string): string {
 }
 /** Returns the hands that have checked phases which differ from before. */
 export const rewritten = (before: Stand, now: Stand): readonly Hand[] => kHands.filter((hand) => now[hand] !== '' && now[hand] !== before[hand])
-
-/** Returns an empty document, for a recording without annotation. */
-export function emptyEaf(motionFile: string, date: string): string {
-  const file = escaped(motionFile)
-  return `<?xml version="1.0" encoding="UTF-8"?>
-<ANNOTATION_DOCUMENT AUTHOR="" DATE="${date}" FORMAT="3.0" VERSION="3.0" xmlns:xsi="http://www.w3.org/2001/XMLSchema-instance" xsi:noNamespaceSchemaLocation="http://www.mpi.nl/tools/elan/EAFv3.0.xsd">
-    <HEADER MEDIA_FILE="" TIME_UNITS="milliseconds">
-        <LINKED_FILE_DESCRIPTOR LINK_URL="./${file}" MIME_TYPE="application/octet-stream" RELATIVE_LINK_URL="./${file}"/>
-        <PROPERTY NAME="lastUsedAnnotationId">0</PROPERTY>
-    </HEADER>
-    <TIME_ORDER/>
-</ANNOTATION_DOCUMENT>
-`
-}

@@ -2,12 +2,11 @@ import type { AnnotationDocument } from '../../annotation/document'
 import { readEaf } from '../../annotation/eaf'
 import type { StoredRecording } from '../../api/corpus_answers'
 import type { Api } from '../../api/client'
-import { annotationBytes, proposals, storedRecording } from '../../api/corpus_calls'
-import { emptyEaf, isChecked, readChecked, rewritten, standOf, type Stand } from './checked_tiers'
+import { proposals, storedRecording } from '../../api/corpus_calls'
+import { isChecked, readChecked, rewritten, standOf, type Stand } from './checked_tiers'
 import { dropDraft, isKeyOf, isOf, keepDraft, keptDraft, revisionOf, type Draft, type Revision } from './draft'
 import { begun, pushed, redone, undone, type History } from './history'
 import { acceptedAll, decided, filled, find, following, inOrder, kEmpty, reviewOf, within, type Frames, type Hand, type Review, type State } from './review'
-import { decoded } from '../../annotation/xml_text'
 
 const kNoTiers: AnnotationDocument = { tiers: [] }
 const kNone: Stand = { right: '', left: '' }
@@ -39,7 +38,7 @@ export class PhasesSession {
    */
   elsewhere = $state.raw<{ readonly draft?: Draft } | undefined>()
   /** The stored annotation, into which the phases are written. */
-  eaf = $state.raw('')
+  annotation = $state.raw<AnnotationDocument>({ tiers: [] })
   /** Hands whose checked phases were stored by someone else since this review began: those stay. */
   conflicting = $state.raw<readonly Hand[]>([])
   /** The checked phases that were stored when the review began, and those stored now. */
@@ -205,7 +204,7 @@ export class PhasesSession {
   }
 
   private readStored(): Review | undefined {
-    return readChecked(readEaf(this.eaf), this.eaf)
+    return readChecked(this.annotation)
   }
   private drop(): void {
     dropDraft(this.database, this.recording, this.seen)
@@ -242,18 +241,16 @@ export class PhasesSession {
     this.kept = done !== 'full'
     if (done !== 'full') this.seen = done.revision
   }
-  /** Loads the recording and its stored annotation; a recording without annotation gets an empty document. */
+  /** Loads the recording and its stored annotation; that of a recording without annotation is empty. */
   private async read(): Promise<void> {
     const info = await storedRecording(this.api, this.database, this.recording)
-    const bytes = info.annotation_file ? await annotationBytes(this.api, this.database, this.recording) : undefined
-    const found = bytes && decoded(bytes)
+    const found = info.annotation_file ? await this.api.annotation(this.database, this.recording) : undefined
     this.info = info
-    if (this.eaf && found === this.found) return
+    if (found === this.found) return
+    this.annotation = found === undefined ? { tiers: [] } : readEaf(found)
     this.found = found
-    this.eaf = found ?? emptyEaf(info.motion_file, new Date().toISOString())
-    const document = readEaf(this.eaf)
-    this.stand = standOf(document)
-    this.document = { tiers: document.tiers.filter(({ name }) => isChecked(name) === undefined) }
+    this.stand = standOf(this.annotation)
+    this.document = { tiers: this.annotation.tiers.filter(({ name }) => isChecked(name) === undefined) }
   }
 }
 

@@ -44,10 +44,10 @@ it('discards its upload if it is aborted or fails', async () => {
   const steps: string[] = []
   const api = { result: () => (steps.push('ended'), Promise.reject(new Error('aborted'))) } as unknown as Api
   discarded.mockImplementation(() => (steps.push('discarded'), Promise.resolve()))
-  await expect(sendReview(api, 'd', 'r', '<x/>', new AbortController().signal)).rejects.toThrow('no')
+  await expect(sendReview(api, 'd', 'r', new Blob(), new AbortController().signal)).rejects.toThrow('no')
   expect([discarded.mock.calls.length, cancelled.mock.calls.length]).toEqual([1, 0])
   send.mockResolvedValue()
-  await expect(sendReview(api, 'd', 'r', '<x/>', new AbortController().signal)).rejects.toThrow('aborted')
+  await expect(sendReview(api, 'd', 'r', new Blob(), new AbortController().signal)).rejects.toThrow('aborted')
   expect([discarded.mock.calls.length, cancelled.mock.calls.length, discarded.mock.lastCall?.[2]]).toEqual([2, 1, 'u'])
   // Not before the job is over, because the server refuses that.
   expect(steps).toEqual(['discarded', 'ended', 'ended', 'discarded'])

@@ -2,7 +2,6 @@ import type { JobBegun } from '../../api/answers'
 import type { Imported, ImportResult, Inspected, Inspection } from '../../api/corpus_answers'
 import type { Api } from '../../api/client'
 import { beginUpload, cancelJob, discardUpload, openUpload, sendFile } from '../../api/corpus_calls'
-import { encoded } from '../../annotation/xml_text'
 import { isPlain } from '../import/file_kinds'
 import { tableOf } from '../import/pairs'
 import type { Written } from './checked_tiers'
@@ -56,13 +55,13 @@ export function filesFor(recording: string): { readonly file: string; readonly t
 }
 
 /** Sends only the document, and has it inspected. */
-export async function sendReview(api: Api, database: string, recording: string, text: string, signal: AbortSignal): Promise<Sent> {
+export async function sendReview(api: Api, database: string, recording: string, annotation: Blob, signal: AbortSignal): Promise<Sent> {
   const upload = await openUpload(api, database)
   const { file, table } = filesFor(recording),
     body = table ? { pairs: kTable } : {}
   let job: JobBegun | undefined
   try {
-    await sendFile(api, database, upload, file, new Blob([encoded(text)]), () => {}, signal)
+    await sendFile(api, database, upload, file, annotation, () => {}, signal)
     if (table) await sendFile(api, database, upload, kTable, new Blob([table]), () => {}, signal)
     job = await beginUpload(api, database, upload, 'inspect', body)
     const { recordings } = await api.result<Inspection>(job, () => {}, signal)

@@ -87,7 +87,7 @@ export class BlindShow implements Showing {
     const key = `${number} ${side}`
     for (const known of [this.next, this.current]) if (known?.key === key) return known
     const options = { from: item.begin, to: item.end, character: this.settings.character ?? undefined }
-    const regenerated = item.method ? { ...options, remake: `${item.from}..${item.to}`, transition: item.method } : options
+    const regenerated = item.method ? { ...options, regenerate: `${item.from}..${item.to}`, transition: item.method } : options
     // In the order of the sides, so that not even the order of the calls reveals the answer.
     const both = side === 'left' ? [options, regenerated] : [regenerated, options]
     const sources = (this.settings.mode === 'single' ? both.slice(0, 1) : both).map(

@@ -58,8 +58,8 @@ export function measured(figure: Figure, store: FrameStore): Measures {
     if (left !== undefined && right !== undefined)
       across = added(across, unit(points[3 * left] - points[3 * right], points[3 * left + 2] - points[3 * right + 2]))
     if (pelvis !== undefined && head !== undefined) {
-      const way = [0, 1, 2].map((axis) => points[3 * head + axis] - points[3 * pelvis + axis])
-      rise += way[1] / Math.max(1e-9, Math.hypot(...way))
+      const trunk = [0, 1, 2].map((axis) => points[3 * head + axis] - points[3 * pelvis + axis])
+      rise += trunk[1] / Math.max(1e-9, Math.hypot(...trunk))
     }
     for (const side of ['left', 'right'] as const) {
       for (const point of ofSide[side]) {

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "signweave/notation/answer_json.h"
+
+namespace signweave::wire {
+
+/// A document as it is printed and sent: indented by two, bytes that are not UTF-8 replaced, a line feed at the end.
+template <class Json>
+std::string text_of(const Json& document) {
+  return document.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + '\n';
+}
+
+}  // namespace signweave::wire

@@ -1,0 +1,66 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "signweave/calls/evaluation_answer.h"
+#include "signweave/calls/evaluation_input.h"
+#include "signweave/calls/evaluation_report.h"
+#include "signweave/calls/field.h"
+#include "signweave/calls/listener.h"
+#include "signweave/transition/method.h"
+
+namespace signweave::calls {
+
+/// Cuts captured movements out, makes them again by each method and compares.
+struct EvaluateCall {
+  std::vector<std::string> methods;  ///< none: all; slerp, which others are told over, is always there
+  std::uint64_t seed = 1;
+  std::string collections;  ///< a table of them (read_collections), as text; on the command line the name of its file
+};
+
+/// Empty, or that there is no such method, with near matches.
+std::string check_method(const std::string& name);
+
+template <class Visit>
+void fields(Visit& visit, EvaluateCall& call) {
+  visit(Field{.name = "method",
+              .help = "this method alone, beside slerp; may be given again",
+              .several_words = true,
+              .check = check_method},
+        call.methods);
+  visit(Field{.name = "seed",
+              .help = "of the resampling that intervals come from",
+              .shows_default = true,
+              .check =
+                  [](const std::string& text) {
+                    return text.starts_with('-') ? std::string("a seed is not negative") : std::string();
+                  }},
+        call.seed);
+  visit(Field{.name = "collections",
+              .help = "a table of which collection and signer recordings belong to: CSV with recording, collection, "
+                      "perhaps signer",
+              .type_name = "FILE.csv"},
+        call.collections);
+}
+
+/// What came of it.
+struct Evaluated {
+  EvaluationInput input;
+  SpanChoice choice;
+  std::vector<EvaluatedTask> tasks;
+  std::string_view left_out_by;  ///< see Folds
+};
+
+/// Throws Error{not_found} where there is nothing to evaluate on; what `listener.progress` throws ends it.
+Evaluated run(const Database& database, const EvaluateCall& call, const Listener& listener);
+/// The same on any input and spans.
+Evaluated evaluate(EvaluationInput input, SpanChoice choice, const EvaluateCall& call, const Listener& listener);
+/// Throws Error{not_found} where there is none.
+void require_recordings(const EvaluationInput& input, const std::string& where);
+
+EvaluationAnswer answer_of(const Evaluated& evaluated, const EvaluateCall& call, Bootstrap& bootstrap);
+/// The summary with intervals as an SVG document.
+std::string plot_of(const std::vector<EvaluatedTask>& tasks, Bootstrap& bootstrap);
+
+}  // namespace signweave::calls

@@ -1,0 +1,171 @@
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "signweave/core/answer.h"
+
+/// The answer of `evaluate`.
+namespace signweave::calls {
+
+/// A figure with its interval.
+struct EstimateAnswer {
+  OrNull<double> value;
+  OrNull<double> low;
+  OrNull<double> high;
+  std::size_t spans = 0;
+  std::size_t recordings = 0;
+  std::size_t collections = 0;
+};
+template <class Visit>
+void estimate_fields(Visit& visit, const EstimateAnswer& estimate) {
+  visit(AnswerField{.name = "value", .help = "null: nothing was measured"}, estimate.value);
+  visit(AnswerField{.name = "low", .help = "of its interval; null: too few recordings"}, estimate.low);
+  visit(AnswerField{.name = "high"}, estimate.high);
+  visit(AnswerField{.name = "spans", .help = "how many it is from"}, estimate.spans);
+  visit(AnswerField{.name = "recordings"}, estimate.recordings);
+  visit(AnswerField{.name = "collections"}, estimate.collections);
+}
+template <class Visit>
+void fields(Visit& visit, const EstimateAnswer& estimate) {
+  visit.type("Estimate");
+  estimate_fields(visit, estimate);
+}
+
+/// A measure of a method in a group.
+struct MeasureAnswer {
+  EstimateAnswer estimate;
+  std::optional<std::string> unit;
+  std::map<std::string, EstimateAnswer> over;  ///< ratios to this method's figure
+};
+template <class Visit>
+void fields(Visit& visit, const MeasureAnswer& measure) {
+  const auto over = [&](const char* method) {
+    const auto found = measure.over.find(method);
+    return found == measure.over.end() ? std::nullopt : std::optional(found->second);
+  };
+  visit.type("MeasureEstimate");
+  estimate_fields(visit, measure.estimate);
+  visit(AnswerField{.name = "unit"}, measure.unit);
+  visit(AnswerField{.name = "over_slerp", .help = "the ratio to slerp's figure"}, over("slerp"));
+  visit(AnswerField{.name = "over_hermite", .help = "the ratio to hermite's figure"}, over("hermite"));
+}
+
+using FiguresAnswer = std::vector<std::pair<std::string, MeasureAnswer>>;  ///< by measure
+
+/// A group of spans of a task.
+struct GroupAnswer {
+  std::string group;
+  std::size_t spans = 0;
+  std::size_t recordings = 0;
+  std::size_t collections = 0;
+  std::vector<std::pair<std::string, std::vector<std::pair<std::string, FiguresAnswer>>>> hands;  ///< [hand][method]
+};
+template <class Visit>
+void fields(Visit& visit, const GroupAnswer& group) {
+  visit.type("EvaluationGroup");
+  visit(AnswerField{.name = "group"}, group.group);
+  visit(AnswerField{.name = "spans"}, group.spans);
+  visit(AnswerField{.name = "recordings"}, group.recordings);
+  visit(AnswerField{.name = "collections"}, group.collections);
+  visit(AnswerField{.name = "hands", .help = "by hand (moving, left, right), method and measure"}, group.hands);
+}
+
+struct TaskAnswer {
+  std::string task;
+  std::vector<GroupAnswer> groups;
+};
+template <class Visit>
+void fields(Visit& visit, const TaskAnswer& task) {
+  visit.type("EvaluationTask");
+  visit(AnswerField{.name = "task"}, task.task);
+  visit(AnswerField{.name = "groups"}, task.groups);
+}
+
+struct CollectionEstimate {
+  std::string collection;
+  EstimateAnswer estimate;
+};
+template <class Visit>
+void fields(Visit& visit, const CollectionEstimate& one) {
+  visit.type("CollectionEstimate");
+  visit(AnswerField{.name = "collection"}, one.collection);
+  estimate_fields(visit, one.estimate);
+}
+
+/// The wrist's error of a method over that of the reference method.
+struct JudgedAnswer {
+  std::string method;
+  std::string over;
+  EstimateAnswer all;
+  std::vector<CollectionEstimate> collections;
+  bool may_be_default = false;
+};
+template <class Visit>
+void fields(Visit& visit, const JudgedAnswer& judged) {
+  visit.type("JudgedMethod");
+  visit(AnswerField{.name = "method"}, judged.method);
+  visit(AnswerField{.name = "over"}, judged.over);
+  visit(AnswerField{.name = "all"}, judged.all);
+  visit(AnswerField{.name = "collections"}, judged.collections);
+  visit(AnswerField{.name = "may_be_default"}, judged.may_be_default);
+}
+
+/// A captured movement that was cut out.
+struct SpanAnswer {
+  std::string file;
+  std::int64_t first_frame = 0;
+  std::int64_t frames = 0;
+  std::string group;
+  std::string_view moving_hand;
+  std::size_t speed_peaks = 0;
+};
+template <class Visit>
+void fields(Visit& visit, const SpanAnswer& span) {
+  visit.type("EvaluatedSpan");
+  visit(AnswerField{.name = "file"}, span.file);
+  visit(AnswerField{.name = "first_frame"}, span.first_frame);
+  visit(AnswerField{.name = "frames"}, span.frames);
+  visit(AnswerField{.name = "group"}, span.group);
+  visit(AnswerField{.name = "moving_hand", .one_of = {"left", "right"}}, span.moving_hand);
+  visit(AnswerField{.name = "speed_peaks"}, span.speed_peaks);
+}
+
+struct EvaluationAnswer {
+  std::size_t recordings = 0;
+  std::size_t recordings_left_out = 0;
+  std::string_view left_out_by;
+  std::vector<JudgedAnswer> judged;
+  std::size_t spans_left_out = 0;
+  std::uint64_t seed = 0;
+  double confidence = 0;
+  std::vector<TaskAnswer> tasks;
+  std::vector<SpanAnswer> spans;
+};
+template <class Visit>
+void evaluation_fields(Visit& visit, const EvaluationAnswer& answer) {
+  visit(AnswerField{.name = "recordings"}, answer.recordings);
+  visit(AnswerField{.name = "recordings_left_out"}, answer.recordings_left_out);
+  visit(AnswerField{.name = "left_out_by",
+                    .help = "nothing is learned from the one that is judged",
+                    .one_of = {"collection", "signer", "recording"}},
+        answer.left_out_by);
+  visit(AnswerField{.name = "judged", .help = "the other methods against kriging, by the wrist's error"},
+        answer.judged);
+  visit(AnswerField{.name = "spans_left_out"}, answer.spans_left_out);
+  visit(AnswerField{.name = "seed"}, answer.seed);
+  visit(AnswerField{.name = "confidence"}, answer.confidence);
+  visit(AnswerField{.name = "tasks"}, answer.tasks);
+  visit(AnswerField{.name = "spans"}, answer.spans);
+}
+template <class Visit>
+void fields(Visit& visit, const EvaluationAnswer& answer) {
+  visit.type("Evaluation");
+  evaluation_fields(visit, answer);
+}
+
+}  // namespace signweave::calls

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "signweave/calls/field.h"
+#include "signweave/calls/listener.h"
+#include "signweave/calls/stats_answer.h"
+#include "signweave/calls/stats_report.h"
+
+namespace signweave::calls {
+
+/// Of runs of glosses: the longest that is counted.
+inline constexpr std::size_t kLongestNgram = 8;
+
+/// Durations of the recorded transitions.
+struct StatsCall {
+  std::string recording;  ///< empty: all
+  bool pairs = false;
+  bool glosses = false;
+  std::size_t ngrams = 0;  ///< 0: none
+};
+
+template <class Visit>
+void fields(Visit& visit, StatsCall& call) {
+  visit(Field{.name = "recording", .help = "of this recording alone"}, call.recording);
+  visit(Field{.name = "pairs", .help = "the transitions of each pair of glosses"}, call.pairs);
+  visit(Field{.name = "glosses", .help = "how often each gloss occurs, and how long sign and stroke last"},
+        call.glosses);
+  visit(Field{.name = "ngrams",
+              .help = "runs of 2 to N glosses, and the time between their strokes",
+              .range = Range{std::size_t{2}, kLongestNgram}},
+        call.ngrams);
+}
+
+/// What the annotation of some recordings holds.
+struct Counted {
+  std::vector<std::string> names;
+  std::vector<std::vector<Sign>> signs;                      ///< [recording]
+  std::vector<std::vector<RecordedTransition>> transitions;  ///< [recording]
+  std::vector<RecordedTransition> all;
+};
+
+/// A recording whose features are damaged is told of; its durations are counted all the same. Throws Error{not_found}.
+Counted run(const Database& database, const StatsCall& call, const Listener& listener);
+
+StatisticsAnswer answer_of(const StatsCall& call, const Counted& counted);
+/// Rows for CSV; at most one of pairs, glosses and ngrams may be asked for (csv_fault).
+Rows csv_of(const StatsCall& call, const Counted& counted);
+/// Empty, or why this is not one table.
+std::string csv_fault(const StatsCall& call);
+/// Figure 4 of the paper as an SVG document; `where` begins the text of Error{not_found} where no transition is
+/// recorded.
+std::string plot_of(const Counted& counted, const std::string& where);
+
+std::vector<NamedSummary> summaries_of(const Counted& counted);
+std::vector<Sign> all_signs(const Counted& counted);
+std::vector<NgramStats> all_ngrams(const Counted& counted, std::size_t longest);
+
+}  // namespace signweave::calls

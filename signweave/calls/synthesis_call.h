@@ -1,0 +1,223 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "signweave/calls/characters.h"
+#include "signweave/calls/field.h"
+#include "signweave/calls/motion_writing.h"
+#include "signweave/calls/selection_report.h"
+#include "signweave/calls/signing_space.h"
+#include "signweave/choose/synthesizer.h"
+#include "signweave/core/answer.h"
+#include "signweave/formats/write_file.h"
+#include "signweave/score/report.h"
+
+namespace signweave {
+
+template <class Visit>
+void fields(Visit& visit, const Timings& timings) {
+  const auto ms = [](Seconds seconds) { return seconds.count() * 1000.0; };
+  visit.type("Timings");
+  visit(AnswerField{.name = "semantic_query_ms"}, ms(timings.semantic_query));
+  visit(AnswerField{.name = "selection_ms"}, ms(timings.selection));
+  visit(AnswerField{.name = "retrieval_ms"}, ms(timings.retrieval));
+  visit(AnswerField{.name = "concatenation_ms"}, ms(timings.concatenation));
+  visit(AnswerField{.name = "total_ms"}, ms(timings.total));
+}
+
+}  // namespace signweave
+
+namespace signweave::calls {
+
+/// How signing is made: what `sign` and `edit` share.
+struct SynthesisChoices {
+  std::string transition = std::string(transition_methods().front().name);
+  std::string duration = "fitted";
+  double tempo = 1;
+  std::vector<std::string> junctions;
+  std::string rate;
+  std::string align = "auto";
+  bool signing_space = false;
+  std::string character;
+  BvhWriting bvh;
+  bool explain = false;
+};
+
+/// The names of the transition methods, and all of them as a help text.
+std::vector<std::string> transition_names();
+std::string transition_help();
+/// Empty, or what is wrong with the value.
+std::string check_duration(const std::string& text);
+std::string check_junction(const std::string& text);
+
+/// What says how the signing goes, but for its frame rate.
+template <class Visit>
+void signing_fields(Visit& visit, SynthesisChoices& choices) {
+  visit(Field{.name = "transition", .help = transition_help(), .shows_default = true, .one_of = transition_names()},
+        choices.transition);
+  visit(Field{.name = "duration",
+              .help = "of each transition: fitted (told from what the hands have to do, where that beats the mean), "
+                      "corpus (its mean), or milliseconds",
+              .shows_default = true,
+              .or_number = true,
+              .check = check_duration},
+        choices.duration);
+  visit(
+      Field{.name = "tempo", .help = "0.25 to 4; above 1 is faster", .shows_default = true, .range = Range{0.25, 4.0}},
+      choices.tempo);
+  visit(Field{.name = "align",
+              .help = "bring signers to one place: auto (other recordings than the first or the edited one), ground "
+                      "(all), none",
+              .shows_default = true,
+              .one_of = {"auto", "ground", "none"}},
+        choices.align);
+  visit(Field{.name = "character", .help = kCharacterHelp}, choices.character);
+  visit(
+      Field{.name = "junctions",
+            .help = "N=PART[,PART...]: how junction N is made, counted from 1 between the first two signs: a method, a "
+                    "duration (450ms), a tempo of this transition alone (x1.5); made even between recorded "
+                    "neighbours; may be given several times",
+            .words = "junction",
+            .check = check_junction},
+      choices.junctions);
+}
+
+template <class Visit>
+void fields(Visit& visit, SynthesisChoices& choices) {
+  signing_fields(visit, choices);
+  visit(Field{.name = "rate",
+              .help = "frames a second of the result; the highest of its sources where not given",
+              .or_number = true,
+              .check = check_rate},
+        choices.rate);
+  visit(Field{.name = "signing_space", .help = kSigningSpaceHelp}, choices.signing_space);
+  fields(visit, choices.bvh);
+  visit(Field{.name = "explain", .help = "show candidates, costs and junctions"}, choices.explain);
+}
+
+/// Makes new signing from glosses.
+struct SignCall {
+  std::string utterance;
+  std::string missing = "explain";
+  SynthesisChoices how;
+};
+
+template <class Visit>
+void fields(Visit& visit, SignCall& call) {
+  visit(Field{.name = "utterance",
+              .help = "glosses separated by blanks; \"LE MANS\" quoted, MATIN#3 one token, \"NAME\"@1200..3400 a piece "
+                      "of a recording, , and . pauses",
+              .words = "UTTERANCE",
+              .required = true},
+        call.utterance);
+  visit(
+      Field{.name = "missing",
+            .help = "of glosses that are not there: explain and sign nothing, or fold (take the one gloss that differs "
+                    "in case, accents or width only, and say so)",
+            .shows_default = true,
+            .one_of = {"explain", "fold"}},
+      call.missing);
+  fields(visit, call.how);
+}
+
+/// Changes a recording's words.
+struct EditCall {
+  std::string recording;
+  std::vector<std::string> replace;
+  std::string swap;
+  SynthesisChoices how;
+};
+
+template <class Visit>
+void fields(Visit& visit, EditCall& call) {
+  visit(Field{.name = "recording", .help = "the recording to start from", .words = "RECORDING", .required = true},
+        call.recording);
+  visit(Field{.name = "replace",
+              .help = "GLOSS[#N]=GLOSS[#M]: the N-th of this recording by the M-th of the database (or the best); may "
+                      "be given several times",
+              .several_words = true},
+        call.replace);
+  visit(Field{.name = "swap", .help = "FROM..TO,FROM..TO: two runs of signs change places"}, call.swap);
+  fields(visit, call.how);
+}
+
+/// Renders a score, or some of its frames. Nothing is chosen, and so none of SynthesisChoices but how it is shown and
+/// written.
+struct ScoreCall {
+  std::string frames;
+  bool signing_space = false;
+  std::string character;
+  BvhWriting bvh;
+};
+
+/// Empty, or why `text` is no "FROM..TO" of frames.
+std::string check_frames(const std::string& text);
+
+inline Field frames_field() {
+  return {.name = "frames",
+          .help = "FROM..TO: these frames of the score alone, counted from 0, TO not among them",
+          .check = check_frames};
+}
+
+template <class Visit>
+void fields(Visit& visit, ScoreCall& call) {
+  visit(frames_field(), call.frames);
+  visit(Field{.name = "signing_space", .help = kSigningSpaceHelp}, call.signing_space);
+  visit(Field{.name = "character", .help = kCharacterHelp}, call.character);
+  fields(visit, call.bvh);
+}
+
+/// How what it makes is shown and written.
+SynthesisChoices choices_of(const ScoreCall& call);
+/// Throws what `synthesize` of a score throws, Error{bad_input} where the frames are not in the score, or one of
+/// `formats` ("eaf", "bvh", …) has more than motion and only some of the frames are asked for. Of those there is
+/// the motion alone: no signs, clips, junctions or sources.
+Synthesized run(const Database& database, const Score& score, const ScoreCall& call,
+                const std::vector<std::string>& formats);
+
+/// Of checked fields. Throws Error{bad_input} where a junction is named twice.
+SynthesisOptions options_of(const SynthesisChoices& choices);
+
+/// `most_frames`: a result that would have more is refused. Both throw what `synthesize` and the parsers of utterances
+/// and edits throw; an edit without a change is Error{bad_input}.
+Synthesized run(const Database& database, const SignCall& call, std::int64_t most_frames = kMostFrames);
+Synthesized run(const Database& database, const EditCall& call, std::int64_t most_frames = kMostFrames);
+std::string title_of(const SignCall& call);
+std::string title_of(const EditCall& call);
+
+/// The report of a synthesis: signs, clips and junctions, how long each step took and, if requested, the candidates.
+struct SynthesisAnswer {
+  SynthesisReport report;
+  Timings timings;
+  std::optional<std::vector<PlaceAnswer>> places;  ///< this and those below: of `explain`
+  std::optional<JoinWeights> weights;
+  std::optional<std::size_t> captured_transitions;
+};
+template <class Visit>
+void answer_fields(Visit& visit, const SynthesisAnswer& answer) {
+  report_fields(visit, answer.report);
+  visit(AnswerField{.name = "timings"}, answer.timings);
+  visit(AnswerField{.name = "places", .help = "of `explain`: what there was to choose from"}, answer.places);
+  visit(AnswerField{.name = "weights", .help = "of `explain`"}, answer.weights);
+  visit(AnswerField{.name = "captured_transitions", .help = "of `explain`"}, answer.captured_transitions);
+}
+template <class Visit>
+void fields(Visit& visit, const SynthesisAnswer& answer) {
+  visit.type("SynthesisResult");
+  answer_fields(visit, answer);
+}
+
+SynthesisAnswer report_of(const Synthesized& made, const SynthesisChoices& choices);
+
+/// The recording whose signer the result has, for stance_of.
+const RecordingInfo& signer_of(const Synthesized& made);
+/// Puts the result on a character.
+void show_on(Synthesized& made, const SignerStance& stance, const CharacterFile& character);
+
+/// How the result is written: the layout of its source's file without that file's oddities, and what heads a sheet.
+/// `character`: whose joints it has; none: those of its source.
+FileContent content_of(const Synthesized& made, const SynthesisChoices& choices, const std::string& title,
+                       const SharedCharacter& character);
+
+}  // namespace signweave::calls

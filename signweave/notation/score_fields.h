@@ -1,0 +1,155 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "signweave/core/answer.h"
+#include "signweave/notation/score_json.h"
+
+/// Inside the library and its programs only: the members of a score's JSON (core/answer.h).
+namespace signweave {
+
+using NumberPair = std::array<std::int64_t, 2>;
+
+inline NumberPair pair_of(FrameRange frames) {
+  return {frames.begin, frames.end};
+}
+
+/// 16 hexadecimal digits.
+std::string text_of_fingerprint(std::uint64_t fingerprint);
+
+template <class Visit>
+void fields(Visit& visit, const SourceRef& source) {
+  visit.type("ScoreSource");
+  visit(AnswerField{.name = "recording"}, source.recording);
+  visit(AnswerField{.name = "fingerprint", .help = "of its motion file, hexadecimal; 0: not known"},
+        text_of_fingerprint(source.fingerprint));
+  visit(AnswerField{.name = "kind", .help = "recording if missing", .one_of = {"recording", "rest", "shown"}},
+        given_if(source.kind != SourceRef::Kind::recording, name_of(source.kind)));
+}
+
+template <class Visit>
+void fields(Visit& visit, const Phase& phase) {
+  visit.type("ScorePhase");
+  visit(AnswerField{.name = "kind"}, name_of(phase.kind));
+  visit(AnswerField{.name = "ms", .help = "begin and end"},
+        NumberPair{phase.span.begin.count(), phase.span.end.count()});
+  visit(AnswerField{.name = "label"}, phase.label);
+  visit(AnswerField{.name = "annotation"}, phase.annotation);
+}
+
+struct ScoreSign {
+  std::size_t place = 0;
+  Sign sign;
+};
+template <class Visit>
+void fields(Visit& visit, const ScoreSign& one) {
+  const Sign& sign = one.sign;
+  visit.type("ScoreSign");
+  visit(AnswerField{.name = "place", .minimum = 0}, one.place);
+  visit(AnswerField{.name = "gloss"}, sign.gloss);
+  visit(AnswerField{.name = "ms", .help = "begin and end in the recording's annotation time"},
+        NumberPair{sign.span.begin.count(), sign.span.end.count()});
+  visit(AnswerField{.name = "hand"}, name_of(sign.hand));
+  visit(AnswerField{.name = "signer"}, sign.signer);
+  visit(AnswerField{.name = "tier"}, sign.tier);
+  visit(AnswerField{.name = "annotation"}, sign.annotation);
+  visit(AnswerField{.name = "inferred"}, sign.inferred);
+  visit(AnswerField{.name = "phases"}, sign.phases);
+}
+
+template <class Visit>
+void fields(Visit& visit, const GroundTransform& standing) {
+  const auto& [turn, shift] = standing;
+  visit.type("ScoreStanding");
+  visit(AnswerField{.name = "turn", .help = "a unit quaternion, x y z w"},
+        std::array<float, 4>{turn.x(), turn.y(), turn.z(), turn.w()});
+  visit(AnswerField{.name = "shift", .help = "metres"}, std::array<float, 3>{shift.x(), shift.y(), shift.z()});
+}
+
+template <class Visit>
+void fields(Visit& visit, const FrameClock& clock) {
+  visit.type("ScoreClock");
+  visit(AnswerField{.name = "frame_time", .help = "seconds of annotation time"}, clock.frame_time.count());
+  visit(AnswerField{.name = "origin", .help = "the annotation time of frame 0, in seconds"}, clock.origin.count());
+}
+
+std::vector<ScoreSign> signs_of(const Clip& clip);
+
+template <class Visit>
+void fields(Visit& visit, const Clip& clip) {
+  visit.type("ScoreClip");
+  visit(AnswerField{.name = "id", .minimum = 0}, clip.id);
+  visit(AnswerField{.name = "place", .help = "the first place of the utterance that it is of, from 0", .minimum = 0},
+        clip.place);
+  visit(AnswerField{.name = "source"}, clip.source);
+  visit(
+      AnswerField{.name = "whole", .help = "recording frames that may be shown: the first, and the one after the last"},
+      pair_of(clip.whole));
+  visit(AnswerField{.name = "core", .help = "recording frames that are never changed"}, pair_of(clip.core));
+  visit(AnswerField{.name = "step", .help = "recording frames per output frame"}, clip.step);
+  visit(AnswerField{.name = "at", .help = "output frames of the core"}, pair_of(clip.at));
+  visit(AnswerField{.name = "standing", .help = "moves it to where the signer stands; null: it is not moved"},
+        OrNull<GroundTransform>{clip.standing});
+  visit(AnswerField{.name = "clock"}, clip.clock);
+  visit(AnswerField{.name = "signs"}, signs_of(clip));
+}
+
+template <class Visit>
+void fields(Visit& visit, const Transition& transition) {
+  const TransitionCut& cut = transition.cut;
+  visit.type("ScoreTransition");
+  visit(AnswerField{.name = "from", .minimum = 0}, transition.from);
+  visit(AnswerField{.name = "to", .minimum = 0}, transition.to);
+  visit(AnswerField{.name = "length"}, cut.length);
+  visit(AnswerField{.name = "retraction"}, cut.retraction_frames);
+  visit(AnswerField{.name = "preparation"}, cut.preparation_frames);
+  visit(AnswerField{.name = "blend"}, cut.blend_frames);
+  visit(AnswerField{.name = "pause"}, cut.pause_frames);
+  visit(AnswerField{.name = "waits"}, cut.waits);
+}
+
+template <class Visit>
+void fields(Visit& visit, const Item& item) {
+  const auto* const use = std::get_if<ClipUse>(&item.what);
+  const auto* const made = std::get_if<Transition>(&item.what);
+  visit.type("ScoreItem");
+  visit(AnswerField{.name = "at", .help = "output frames"}, pair_of(item.at));
+  visit(AnswerField{.name = "clip", .help = "or a transition", .minimum = 0},
+        given_if(use != nullptr, use == nullptr ? ClipId{0} : use->clip));
+  visit(AnswerField{.name = "transition"}, given_if(made != nullptr, made == nullptr ? Transition() : *made));
+}
+
+template <class Visit>
+void fields(Visit& visit, const Lane& lane) {
+  visit.type("ScoreLane");
+  visit(AnswerField{.name = "channel", .one_of = {"body", "left", "right", "tracks"}}, name_of(lane.channel));
+  visit(AnswerField{.name = "items"}, lane.items);
+}
+
+template <class Visit>
+void fields(Visit& visit, const JunctionRef& junction) {
+  visit.type("ScoreJunction");
+  visit(AnswerField{.name = "number"}, junction.number);
+  visit(AnswerField{.name = "method"}, junction.method);
+  visit(AnswerField{.name = "chosen", .help = "the options given for it alone"}, junction.chosen);
+}
+
+template <class Visit>
+void fields(Visit& visit, const Score& score) {
+  visit.type("Score");
+  visit(AnswerField{.name = "signweave_score", .help = "the version of the format", .minimum = 1}, kScoreVersion);
+  visit(AnswerField{.name = "skeleton"}, score.skeleton);
+  visit(AnswerField{.name = "rate", .help = "numerator and denominator of the frames per second"},
+        NumberPair{score.rate.numerator, score.rate.denominator});
+  visit(AnswerField{.name = "frames", .minimum = 1}, score.frames);
+  visit(AnswerField{.name = "clips"}, score.clips);
+  visit(AnswerField{.name = "junctions"}, score.junctions);
+  visit(AnswerField{.name = "lanes"}, score.lanes);
+}
+
+}  // namespace signweave

@@ -1,0 +1,269 @@
+#include "signweave/notation/score_json.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "signweave/core/error.h"
+#include "signweave/notation/answer_json.h"
+#include "signweave/notation/score_fields.h"
+
+namespace signweave {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// Puts each list of numbers on one line, for readability.
+std::string with_short_lists(const std::string& json) {
+  std::string text;
+  bool in_string = false;
+  for (std::size_t i = 0; i < json.size(); ++i) {
+    const char c = json[i];
+    if (c == '"') in_string = !in_string;
+    if (in_string && c == '\\') {  // including the escaped character
+      text += json.substr(i++, 2);
+      continue;
+    }
+    text += c;
+    if (in_string || c != '[') continue;
+    const std::size_t end = json.find_first_not_of("0123456789+-.eE, \n", i + 1);
+    if (end == std::string::npos || json[end] != ']') continue;
+    for (std::size_t k = i + 1; k < end; ++k) {
+      if (json[k] != ' ' && json[k] != '\n') text += json[k];
+      if (json[k] == ',') text += ' ';
+    }
+    i = end - 1;
+  }
+  return text;
+}
+
+/// A value and its path in the document.
+class Value {
+ public:
+  Value(const std::string& file, const Json& json, std::string place)
+      : file_(file), json_(json), place_(std::move(place)) {}
+
+  [[noreturn]] void fail(std::string_view wanted) const {
+    throw Error(ErrorCode::bad_input,
+                fmt::format("{}: {}: it must be {}", file_, place_.empty() ? "the whole" : place_, wanted));
+  }
+  Value operator[](const char* key) const {
+    if (!json_.is_object()) fail("an object");
+    const auto found = json_.find(key);
+    if (found == json_.end()) fail(fmt::format("an object with a member '{}'", key));
+    return {file_, *found, place_.empty() ? key : fmt::format("{}.{}", place_, key)};
+  }
+  Value at(std::size_t index) const { return {file_, json_[index], fmt::format("{}[{}]", place_, index)}; }
+  bool has(const char* key) const { return json_.is_object() && json_.contains(key); }
+  bool is_null() const { return json_.is_null(); }
+  std::size_t size() const {
+    if (!json_.is_array()) fail("a list");
+    return json_.size();
+  }
+  std::int64_t whole() const {
+    if (!json_.is_number_integer() || (json_.is_number_unsigned() && json_.get<std::uint64_t>() > INT64_MAX)) {
+      fail("a whole number");
+    }
+    return json_.get<std::int64_t>();
+  }
+  template <class Count>
+  Count count() const {
+    const std::int64_t number = whole();
+    if (number < 0 || static_cast<std::uint64_t>(number) > std::uint64_t{UINT32_MAX})
+      fail("a whole number of 0 or more");
+    return static_cast<Count>(number);
+  }
+  double number() const {
+    if (!json_.is_number()) fail("a number");
+    const auto number = json_.get<double>();
+    if (!std::isfinite(number)) fail("a finite number");
+    return number;
+  }
+  std::string text() const {
+    if (!json_.is_string()) fail("a text");
+    return json_.get<std::string>();
+  }
+  bool flag() const {
+    if (!json_.is_boolean()) fail("true or false");
+    return json_.get<bool>();
+  }
+  FrameRange frames() const {
+    if (size() != 2) fail("a list of two frames");
+    return {at(0).whole(), at(1).whole()};
+  }
+  TimeSpan span() const {
+    if (size() != 2) fail("a list of two moments, in milliseconds");
+    return {Milliseconds(at(0).whole()), Milliseconds(at(1).whole())};
+  }
+  template <class Kind, std::size_t Count>
+  Kind one_of(const std::array<Kind, Count>& kinds) const {
+    const std::string name = text();
+    std::string all;
+    for (const Kind kind : kinds) {
+      if (name == name_of(kind)) return kind;
+      all += (all.empty() ? "" : ", ") + std::string(name_of(kind));
+    }
+    fail("one of " + all);
+  }
+
+ private:
+  const std::string& file_;
+  const Json& json_;
+  std::string place_;
+};
+
+SourceRef source_from(const Value& value) {
+  constexpr std::array kKinds = {SourceRef::Kind::recording, SourceRef::Kind::rest, SourceRef::Kind::shown};
+  SourceRef source{.recording = value["recording"].text()};
+  if (value.has("kind")) source.kind = value["kind"].one_of(kKinds);
+  const Value print = value["fingerprint"];
+  const std::string digits = print.text();
+  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), source.fingerprint, 16);
+  if (error != std::errc() || end != digits.data() + digits.size()) print.fail("a hexadecimal number");
+  return source;
+}
+
+Sign sign_from(const Value& value) {
+  constexpr std::array kKinds = {PhaseKind::preparation, PhaseKind::stroke, PhaseKind::retraction, PhaseKind::hold,
+                                 PhaseKind::other};
+  constexpr std::array kHands = {Hand::both, Hand::right, Hand::left};
+  Sign sign{.gloss = value["gloss"].text(),
+            .span = value["ms"].span(),
+            .phases = {},
+            .hand = value["hand"].one_of(kHands),
+            .signer = value["signer"].text(),
+            .tier = value["tier"].text(),
+            .annotation = value["annotation"].text(),
+            .inferred = value["inferred"].flag()};
+  const Value phases = value["phases"];
+  for (std::size_t i = 0; i < phases.size(); ++i) {
+    const Value phase = phases.at(i);
+    sign.phases.push_back(
+        {phase["kind"].one_of(kKinds), phase["ms"].span(), phase["label"].text(), phase["annotation"].text()});
+  }
+  return sign;
+}
+
+GroundTransform standing_from(const Value& value) {
+  GroundTransform standing;
+  const auto fill = [](const Value& from, auto& numbers) {
+    if (from.size() != static_cast<std::size_t>(numbers.size()))
+      from.fail(fmt::format("a list of {} numbers", numbers.size()));
+    for (Eigen::Index i = 0; i < numbers.size(); ++i)
+      numbers[i] = static_cast<float>(from.at(static_cast<std::size_t>(i)).number());
+  };
+  fill(value["turn"], standing.turn.coeffs());
+  fill(value["shift"], standing.shift);
+  return standing;
+}
+
+Clip clip_from(const Value& value) {
+  Clip clip{.id = value["id"].count<ClipId>(),
+            .place = value["place"].count<std::size_t>(),
+            .source = source_from(value["source"]),
+            .whole = value["whole"].frames(),
+            .core = value["core"].frames(),
+            .step = value["step"].number(),
+            .at = value["at"].frames(),
+            .standing = {},
+            .clock = {Seconds(value["clock"]["frame_time"].number()), Seconds(value["clock"]["origin"].number())},
+            .signs = {},
+            .sign_places = {}};
+  if (!value["standing"].is_null()) clip.standing = standing_from(value["standing"]);
+  const Value signs = value["signs"];
+  for (std::size_t i = 0; i < signs.size(); ++i) {
+    clip.signs.push_back(sign_from(signs.at(i)));
+    clip.sign_places.push_back(signs.at(i)["place"].count<std::size_t>());
+  }
+  return clip;
+}
+
+Item item_from(const Value& value) {
+  Item item{.what = {}, .at = value["at"].frames()};
+  if (value.has("clip")) {
+    item.what = ClipUse{value["clip"].count<ClipId>()};
+    return item;
+  }
+  const Value made = value["transition"];
+  item.what = Transition{.from = made["from"].count<ClipId>(),
+                         .to = made["to"].count<ClipId>(),
+                         .cut = {.length = made["length"].whole(),
+                                 .retraction_frames = made["retraction"].whole(),
+                                 .preparation_frames = made["preparation"].whole(),
+                                 .blend_frames = made["blend"].whole(),
+                                 .pause_frames = made["pause"].whole(),
+                                 .waits = made["waits"].flag()}};
+  return item;
+}
+
+}  // namespace
+
+std::string text_of_fingerprint(std::uint64_t fingerprint) {
+  return fmt::format("{:016x}", fingerprint);
+}
+
+std::vector<ScoreSign> signs_of(const Clip& clip) {
+  std::vector<ScoreSign> signs;
+  for (std::size_t i = 0; i < clip.signs.size(); ++i) signs.push_back({clip.sign_places[i], clip.signs[i]});
+  return signs;
+}
+
+std::string json_of(const Score& score) {
+  return with_short_lists(answer_json(score).dump(1, ' ', false, Json::error_handler_t::replace)) + "\n";
+}
+
+std::string json_line_of(const Score& score) {
+  return answer_json(score).dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+Score score_from_json(std::string_view text, const std::string& file) {
+  Json json;
+  try {
+    json = Json::parse(text);
+  } catch (const Json::parse_error& error) {
+    const std::size_t byte = std::min<std::size_t>(error.byte, text.size());
+    const auto line = 1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(byte), '\n');
+    throw Error(ErrorCode::bad_input,
+                fmt::format("{}:{}: this is not JSON; scores are written by signing or editing", file, line));
+  } catch (const Json::exception&) {
+    throw Error(ErrorCode::bad_input, fmt::format("{}: a number that is too large for any member of a score", file));
+  }
+  const Value all(file, json, "");
+  if (!all.has("signweave_score")) all.fail("a score, with its version as 'signweave_score'");
+  const std::int64_t version = all["signweave_score"].whole();
+  if (version < 1) all["signweave_score"].fail("a version, from 1");
+  if (version > kScoreVersion) {
+    throw Error(ErrorCode::unsupported,
+                fmt::format("{}: a score of version {}; this program reads up to {}", file, version, kScoreVersion));
+  }
+  Score score{.skeleton = source_from(all["skeleton"]),
+              .rate = {},
+              .frames = all["frames"].whole(),
+              .clips = {},
+              .junctions = {},
+              .lanes = {}};
+  if (all["rate"].size() != 2) all["rate"].fail("a list of two numbers, frames and seconds");
+  score.rate = {all["rate"].at(0).whole(), all["rate"].at(1).whole()};
+  const Value clips = all["clips"];
+  for (std::size_t i = 0; i < clips.size(); ++i) score.clips.push_back(clip_from(clips.at(i)));
+  const Value junctions = all["junctions"];
+  for (std::size_t i = 0; i < junctions.size(); ++i) {
+    score.junctions.push_back({junctions.at(i)["number"].count<std::size_t>(), junctions.at(i)["method"].text(),
+                               junctions.at(i)["chosen"].text()});
+  }
+  const Value lanes = all["lanes"];
+  for (std::size_t i = 0; i < lanes.size(); ++i) {
+    Lane lane{.channel = lanes.at(i)["channel"].one_of(kChannels), .items = {}};
+    const Value items = lanes.at(i)["items"];
+    for (std::size_t k = 0; k < items.size(); ++k) lane.items.push_back(item_from(items.at(k)));
+    score.lanes.push_back(std::move(lane));
+  }
+  check(score, file);
+  return score;
+}
+
+}  // namespace signweave

@@ -1,0 +1,1 @@
+int beside = 1;

@@ -1,0 +1,1 @@
+#include "signweave/head.h"

@@ -1,0 +1,4 @@
+struct Place {
+  struct Part {};
+};
+class Part;

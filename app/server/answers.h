@@ -21,7 +21,7 @@ namespace signweave::server {
 
 inline AnswerField declarations_field() {
   return {.name = "declarations",
-          .help = "what the recordings say of themselves: whoever shows the answer must show it"};
+          .help = "what the recordings declare of themselves: show it together with the answer"};
 }
 
 struct DatabaseRow {
@@ -108,7 +108,6 @@ void fields(Visit& visit, const RenderedFile& rendered) {
 
 /// The report of a synthesis as the server gives it.
 struct SynthesisReply {
-  SynthesisReply() = default;
   calls::SynthesisAnswer answer;
   Declarations declarations;
   std::vector<Notice> notices;

@@ -112,11 +112,8 @@ ApiResponse deliver(Call& call, Synthesized made, const calls::SynthesisChoices&
   call.declare(made.result.declarations);
   call.notices.insert(call.notices.end(), made.result.notices.begin(), made.result.notices.end());
   const auto report_json = [&] {
-    SynthesisReply reply;
-    reply.answer = calls::report_of(made, how);
-    reply.declarations = call.declarations;
-    reply.notices = call.notices;
-    return answer_json<nlohmann::json>(reply);
+    return answer_json<nlohmann::json>(SynthesisReply{
+        .answer = calls::report_of(made, how), .declarations = call.declarations, .notices = call.notices});
   };
   if (format.empty()) return json_answer(report_json());
   const AnswerFormat& file = answer_format(format);

@@ -25,7 +25,7 @@ void fields(Visit& visit, const MissingGloss& missing) {
 
 namespace signweave::wire {
 
-/// An error as programs are told it.
+/// An error as it is reported to programs.
 struct FaultAnswer {
   std::string code;
   std::string message;

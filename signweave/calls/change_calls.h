@@ -82,7 +82,7 @@ void fields(Visit& visit, const Relayouted& done) {
 
 /// What a recording is at fault for is told, and the others go on. Throws Error{not_found} for a name that is not
 /// there, before anything is changed, and Error{bad_input} where nothing is to be changed. Call `learn` after it.
-/// `changed` is told of each that was stored again as soon as it is: those stay where the rest is cancelled.
+/// Calls `changed` for each recording as soon as it is stored again; these stay so if the rest is cancelled.
 Relayouted run(Database& database, const RelayoutCall& call, const Listener& listener,
                const std::function<void(const std::string&)>& changed = {});
 

@@ -43,7 +43,7 @@ DatabaseInfo run_info(const Database& database, const std::function<std::vector<
 std::vector<RecordingRow> recording_rows(const Contents* contents) {
   std::vector<RecordingRow> rows;
   if (contents == nullptr) return rows;
-  for (const RecordingInfo& info : contents->recordings) rows.push_back({info});
+  for (const RecordingInfo& info : contents->recordings) rows.push_back({&info});
   return rows;
 }
 

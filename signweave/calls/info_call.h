@@ -65,19 +65,21 @@ struct DatabaseInfo {
   ResidualModel residuals;  ///< what movements taught of transitions
 };
 
-/// `usage` looks at every entry: Database::usage, or usage_in_child. Its fault is told.
+/// `usage` reads every entry: Database::usage, or usage_in_child. An error of it is reported to the listener.
 DatabaseInfo run_info(const Database& database, const std::function<std::vector<Usage>()>& usage,
                       const Listener& listener);
 
-/// A recording as the list of a database gives it.
+/// A recording as the list of a database gives it. Borrows its facts.
 struct RecordingRow {
-  RecordingInfo info;
+  const RecordingInfo* info = nullptr;
 };
 template <class Visit>
 void fields(Visit& visit, const RecordingRow& row) {
-  const RecordingInfo& info = row.info;
+  static const RecordingInfo no_recording;
+  static const motion_db::StoredMotion no_motion;
+  const RecordingInfo& info = row.info == nullptr ? no_recording : *row.info;
   const bool moving = info.motion.has_value();
-  const motion_db::StoredMotion motion = info.motion.value_or(motion_db::StoredMotion());
+  const motion_db::StoredMotion& motion = moving ? *info.motion : no_motion;
   visit.type("RecordingRow");
   visit(AnswerField{.name = "name"}, info.name);
   visit(AnswerField{.name = "signer"}, info.signer);

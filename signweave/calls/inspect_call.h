@@ -106,7 +106,8 @@ struct Inspected {
 template <class Visit>
 void fields(Visit& visit, const Inspected& inspected) {
   const bool good = inspected.content.has_value();
-  const InspectedContent content = inspected.content.value_or(InspectedContent());
+  static const InspectedContent nothing;
+  const InspectedContent& content = good ? *inspected.content : nothing;
   const RecordingDetails& details = content.details;
   const RecordingInfo& info = details.info;
   const bool moving = details.model.has_value();

@@ -20,7 +20,7 @@ enum class ErrorCode {
   cancelled,       ///< stopped on request or by a deadline
 };
 
-/// "not_found": how programs are told the kind of an error, by the command line, HTTP and streams.
+/// "not_found": the name of a kind of error in the answers of the command line, HTTP and streams.
 constexpr std::string_view name_of(ErrorCode code) noexcept {
   switch (code) {
     case ErrorCode::bad_input:

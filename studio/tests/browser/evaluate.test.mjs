@@ -149,7 +149,7 @@ test('follows its job through a network failure, can be cancelled during it, and
   const retry = page.getByRole('alert').getByRole('button')
   await retry.waitFor()
   await page.getByRole('progressbar', { name: 'Evaluating' }).waitFor()
-  await button('Cancel').click() // the job cannot be told to cancel yet
+  await button('Cancel').click() // the job cannot be cancelled yet
   away = false
   await retry.click()
   await page.getByText('The evaluation was cancelled.').waitFor()

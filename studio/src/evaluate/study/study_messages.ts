@@ -3,7 +3,7 @@ import { typeset } from '../../text/typeset'
 const en = {
   title: 'Blind study',
   back: 'Evaluation by numbers',
-  intro: 'Viewers see a captured movement next to the same movement with a regenerated transition, and are not told which is which.',
+  intro: 'Viewers see a captured movement next to the same movement with a regenerated transition, without knowing which is which.',
   honest1:
     'Such a study can show whether viewers distinguish generated transitions from captured ones, and how this differs between methods, ' +
     'recordings and viewers.',

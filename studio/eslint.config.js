@@ -55,5 +55,5 @@ export default ts.config(
     },
   },
   // Node programs, some of whose functions run in a page.
-  { files: ['tests/**/*.{mjs,ts}', 'avatar/**/*.js', '*.{js,ts}'], languageOptions: { globals: { ...globals.node, ...globals.browser } } },
+  { files: ['tests/**/*.{mjs,ts}', 'avatar/**/*.js', '*.{js,mjs,ts}'], languageOptions: { globals: { ...globals.node, ...globals.browser } } },
 )

@@ -61,3 +61,19 @@ it('reports the declarations of recordings by database', async () => {
     ['bé', said],
   ])
 })
+
+it('lists the methods that make transitions, in the server’s order', async () => {
+  const methods = [
+    { name: 'kriging', description: 'predicted from captured transitions' },
+    { name: 'hermite', description: 'a cubic curve' },
+  ]
+  const fetched = vi.fn((_: string) => Promise.resolve(new Response(JSON.stringify(methods))))
+  vi.stubGlobal('fetch', fetched)
+  expect(await new Api().methods()).toEqual(methods)
+  expect(fetched.mock.calls.map(([url]) => url)).toEqual(['api/methods'])
+})
+
+it('throws if an explained synthesis lacks its candidates', async () => {
+  answering({ body: { frames: 0 } })
+  await expect(new Api().explained('a', {})).rejects.toEqual(new StudioFault('badAnswer', 'places'))
+})

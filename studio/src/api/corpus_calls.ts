@@ -1,7 +1,6 @@
 import { readFrames, type FrameTaker } from '../motion/frames_body'
-import type { JobBegun } from './answers'
+import type { Database, FileFormat, JobBegun, Proposals, Recording } from './schema'
 import { faultOf, path, query, type Api } from './client'
-import type { DatabaseInfo, FormatRow, Proposals, StoredRecording } from './corpus_answers'
 import { StudioFault } from './fault'
 
 /** Changes of an annotation, as docs/http.md describes them. */
@@ -20,9 +19,9 @@ export interface TierChanges {
 
 /// Calls that fill and change a database, and calls that report how it is stored.
 
-export const formats = (api: Api): Promise<readonly FormatRow[]> => api.json('formats')
-export const databaseInfo = (api: Api, database: string): Promise<DatabaseInfo> => api.json(path('databases', database))
-export const storedRecording = (api: Api, database: string, recording: string): Promise<StoredRecording> =>
+export const formats = (api: Api): Promise<readonly FileFormat[]> => api.json('formats')
+export const databaseInfo = (api: Api, database: string): Promise<Database> => api.json(path('databases', database))
+export const storedRecording = (api: Api, database: string, recording: string): Promise<Recording> =>
   api.json(path('databases', database, 'recordings', recording))
 export const proposals = (api: Api, database: string, recording: string, signal?: AbortSignal): Promise<Proposals> =>
   api.json(path('databases', database, 'recordings', recording, 'segment'), { signal })

@@ -1,7 +1,9 @@
 import type { Text } from '../text/en'
+import type { FaultText, MissingGloss } from './schema'
 
 /** Faults detected by the studio itself, named by the key of their message. */
-export type OwnFault = 'unreachable' | 'badAnswer' | 'streamRefused' | 'streamClosed' | 'fetcherStopped' | 'framesMissing' | 'noWebgl' | 'pictureLost' | 'noEaf'
+export type OwnFault =
+  'unreachable' | 'badAnswer' | 'streamRefused' | 'streamClosed' | 'fetcherStopped' | 'framesMissing' | 'noWebgl' | 'pictureLost' | 'noEaf' | 'noMotion'
 
 /** A fault detected by the studio itself. It is shown in the user's language; `detail` is appended unchanged. */
 export class StudioFault extends Error {
@@ -19,32 +21,8 @@ export interface FaultPlace {
   readonly column: number
 }
 
-/** A gloss of an utterance that no sign has. */
-export interface MissingGloss {
-  readonly gloss: string
-  /** The glosses probably meant, most likely first. */ readonly matches: readonly string[]
-  /** Whether the matches differ in spelling only: case, accents, width. */ readonly folds: boolean
-}
-
-/** A parameter of the call that would fix what a refusal or a notice reports; without a value the user has to choose one. */
-export interface Remedy {
-  readonly parameter: string
-  readonly value?: string
-}
-
-/** The content of a refusal, as the server sends it over HTTP and over a stream. */
-export interface Refusal {
-  readonly message: string
-  readonly code: string
-  readonly line?: number
-  readonly column?: number
-  readonly missing?: readonly MissingGloss[]
-  readonly suggestion?: string
-  readonly remedies?: readonly Remedy[]
-}
-
 /** Returns the error for a refusal. `status` is the HTTP status, or 0 if a stream refused. */
-export function errorOf({ message, code, line, column, missing, suggestion }: Refusal, status: number): ApiError {
+export function errorOf({ message, code, line, column, missing, suggestion }: FaultText, status: number): ApiError {
   return new ApiError(message, status, code, line && column ? { line, column } : undefined, suggestion, missing)
 }
 

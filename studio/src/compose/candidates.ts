@@ -1,4 +1,5 @@
-import type { CandidateRow, ExplainedReport } from '../api/answers'
+import type { Candidate } from '../api/schema'
+import type { ExplainedSynthesis } from '../api/types'
 
 interface Term {
   readonly name: string
@@ -6,7 +7,7 @@ interface Term {
   readonly cost: number
 }
 /** A token that may fill a place, with its costs. */
-export interface Candidate {
+export interface CandidateToken {
   readonly token: number
   readonly recording: string
   /** The frame of its recording at which it begins. */
@@ -27,12 +28,12 @@ export interface Candidate {
 const kNothing = 0.005
 
 /** Returns the candidates of a place, cheapest first. */
-export function candidatesOf({ places }: ExplainedReport, place: number): Candidate[] {
+export function candidatesOf({ places }: ExplainedSynthesis, place: number): CandidateToken[] {
   const { candidates, chosen } = places[place]
   return candidates.map((row, k) => candidateOf(row, k === chosen)).sort((a, b) => a.cost - b.cost || a.token - b.token)
 }
 
-function candidateOf({ token, recording, frames, cost, target_cost, target, kept, join_cost, join }: CandidateRow, best: boolean): Candidate {
+function candidateOf({ token, recording, frames, cost, target_cost, target, kept, join_cost, join }: Candidate, best: boolean): CandidateToken {
   // Of the join to the next sign only the total is reported.
   const after = cost - target_cost - (join_cost ?? 0)
   const terms = [...termsOf(target, 'target'), ...(kept ? [] : termsOf(join ?? {}, 'join')), ...termsOf({ after }, 'join')].sort((a, b) => b.cost - a.cost)
@@ -46,6 +47,6 @@ function termsOf(terms: Readonly<Record<string, number>>, of: Term['of']): Term[
 }
 
 /** Returns the token chosen for each place; 0 for a piece. */
-export function chosenTokens({ places }: ExplainedReport): number[] {
+export function chosenTokens({ places }: ExplainedSynthesis): number[] {
   return places.map(({ candidates, chosen }) => candidates[chosen]?.token ?? 0)
 }

@@ -1,5 +1,7 @@
 import { expect, it } from 'vitest'
-import type { ExplainedReport, Report } from '../api/answers'
+import type { Candidate } from '../api/schema'
+import { joinAnswer, junctionAnswer, synthesisAnswer } from '../api/test_answers'
+import type { ExplainedSynthesis } from '../api/types'
 import { candidatesOf, chosenTokens } from './candidates'
 import { Known, layoutOf } from './layout'
 import { documentOf } from './made_document'
@@ -28,20 +30,10 @@ const clipOf = (clip: number, place: number, recording: string, begin: number, e
   kept_from_recorded_frame: 105,
   recorded_frames_per_frame: 1,
 })
-const junction = (clip: number, begin: number, end: number) => ({
-  from_clip: clip - 1,
-  to_clip: clip,
-  from: 'A',
-  to: 'B',
-  method: 'gap',
-  frames: { begin, end },
-  retraction_frames: 1,
-  preparation_frames: 2,
-  blend_frames: 3,
-})
+const junction = (clip: number, begin: number, end: number) => junctionAnswer({ to_clip: clip, frames: { begin, end } })
 
 // A and B were recorded one after the other and stay so; then a piece that contains C and D, an empty piece, and E.
-const kReport: Report = {
+const kReport = synthesisAnswer({
   frames: 1000,
   frames_per_second: 100,
   signs: [
@@ -53,7 +45,7 @@ const kReport: Report = {
   ],
   clips: [clipOf(0, 0, 'r', 0, 200), clipOf(1, 2, 's', 240, 460), clipOf(2, 3, 's', 500, 700), clipOf(3, 4, 'r', 790, 1000)],
   junctions: [junction(1, 200, 245), junction(2, 460, 505), junction(3, 700, 795)],
-}
+})
 const kPlaces = [...signs('A', 'B'), piecePlace('s', 4000, 7000), piecePlace('s', 100, 200), signPlace('E')]
 
 it('finds each place, also if pieces contain several signs or none', () => {
@@ -118,7 +110,7 @@ it('builds the annotation of a result like its EAF', () => {
 })
 
 it('returns the candidates of a place by their tokens, cheapest first, with their cost terms', () => {
-  const row = (token: number, cost: number, more = {}) => ({
+  const row = (token: number, cost: number, more: Partial<Candidate> = {}): Candidate => ({
     recording: 'r',
     token,
     frames: { begin: 10 * token, end: 10 * token + 5 },
@@ -127,13 +119,17 @@ it('returns the candidates of a place by their tokens, cheapest first, with thei
     target: { left: 0.1, defects: 0 },
     ...more,
   })
-  const report: ExplainedReport = {
+  const report: ExplainedSynthesis = {
     ...kReport,
     places: [
-      { candidates: [row(1, 2), row(3, 1)], chosen: 1 },
+      { candidates: [row(1, 2), row(3, 1)], chosen: 1, join_cost: 0 },
       {
-        candidates: [row(2, 3.3, { join_cost: 0.7, join: { arms: 0.4, place: 0.3, speed: 0 } }), row(4, 1, { kept: true, join_cost: 0, join: { arms: 9 } })],
+        candidates: [
+          row(2, 3.3, { join_cost: 0.7, join: joinAnswer({ arms: 0.4, place: 0.3 }) }),
+          row(4, 1, { kept: true, join_cost: 0, join: joinAnswer({ arms: 9 }) }),
+        ],
         chosen: 0,
+        join_cost: 0.7,
       },
     ],
   }

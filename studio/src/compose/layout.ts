@@ -1,4 +1,4 @@
-import type { Report, ReportSign } from '../api/answers'
+import type { ReportSign, Synthesis } from '../api/schema'
 import type { Place } from './project'
 
 /** The position of a place in the result, in seconds. */
@@ -52,7 +52,7 @@ export class Known {
 }
 
 /** Returns the positions of an utterance's places from the report of its result; undefined if the places do not match the report. */
-export function layoutOf(places: readonly Place[], report: Report): PlaceLayout | undefined {
+export function layoutOf(places: readonly Place[], report: Synthesis): PlaceLayout | undefined {
   const { signs, clips, junctions, frames_per_second: rate } = report
   if (signs.some(({ place }) => place >= places.length)) return undefined
   const layout: PlacePosition[] = []
@@ -80,7 +80,7 @@ export function layoutOf(places: readonly Place[], report: Report): PlaceLayout 
 
 /** From the end of the last stroke before to the begin of the first one after. */
 function keptBetween(before: PlacePosition, after: PlacePosition): { begin: number; end: number } {
-  const last = before.signs[before.signs.length - 1]?.phases?.findLast(({ kind }) => kind === 'stroke')
-  const first = after.signs[0]?.phases?.find(({ kind }) => kind === 'stroke')
+  const last = before.signs[before.signs.length - 1]?.phases.findLast(({ kind }) => kind === 'stroke')
+  const first = after.signs[0]?.phases.find(({ kind }) => kind === 'stroke')
   return { begin: last ? last.end_ms / 1000 : before.end, end: first ? first.begin_ms / 1000 : after.begin }
 }

@@ -1,4 +1,4 @@
-import type { Report } from '../api/answers'
+import type { Synthesis } from '../api/schema'
 import type { Annotation, AnnotationDocument, Tier } from '../annotation/document'
 
 /** The labels of phases, places, sources and junctions, with placeholders `{…}`. */
@@ -21,10 +21,10 @@ export const kEafLabels: MadeLabels = {
 }
 
 /** Builds the annotation of a result as its EAF has it, from the report that comes with the frames: signs, phases, places, sources, junctions. */
-export function documentOf(report: Report, labels: MadeLabels = kEafLabels): AnnotationDocument {
+export function documentOf(report: Synthesis, labels: MadeLabels = kEafLabels): AnnotationDocument {
   const { signs, clips, junctions, frames_per_second: rate } = report
   const ms = (frame: number) => Math.round((1000 * frame) / rate)
-  const phases = signs.flatMap((sign) => sign.phases ?? []).map((phase) => ({ begin: phase.begin_ms, end: phase.end_ms, label: named(phase.kind, labels) }))
+  const phases = signs.flatMap((sign) => sign.phases).map((phase) => ({ begin: phase.begin_ms, end: phase.end_ms, label: named(phase.kind, labels) }))
   const tier = (name: string, annotations: readonly Annotation[], parent?: string): Tier => ({
     name,
     parent,

@@ -1,4 +1,4 @@
-import type { Report } from '../api/answers'
+import type { Synthesis } from '../api/schema'
 import type { Api } from '../api/client'
 import type { AnnotationDocument } from '../annotation/document'
 import { correspondingTime, stepsOfSigns, type Steps } from '../motion/in_step'
@@ -34,7 +34,7 @@ export interface SigningRequest {
 /** The displayed result: its request, and the server's report. */
 export interface Made {
   readonly request: SigningRequest
-  readonly report: Report
+  readonly report: Synthesis
   readonly layout?: PlaceLayout
 }
 
@@ -246,7 +246,7 @@ export class Making implements Showing {
   }
 
   /** Pairs the k-th sign of the original with the k-th of the result, if their numbers are equal. */
-  private stepsOfOriginal({ comparison: other }: SigningRequest, { signs }: Report, { motion }: Strand): Steps | undefined {
+  private stepsOfOriginal({ comparison: other }: SigningRequest, { signs }: Synthesis, { motion }: Strand): Steps | undefined {
     const annotations = this.original.tiers[0]?.annotations ?? []
     return other?.kind === 'original' && annotations.length === signs.length ? stepsOfSigns(signs, annotations, motion.originMs) : undefined
   }

@@ -1,5 +1,6 @@
 import { expect, it, vi } from 'vitest'
-import type { Report } from '../api/answers'
+import type { Synthesis } from '../api/schema'
+import { junctionAnswer, signAnswer, synthesisAnswer } from '../api/test_answers'
 import type { Api } from '../api/client'
 import type { Strand } from '../viewer/showing'
 import { Making, type SigningRequest } from './making.svelte'
@@ -7,21 +8,13 @@ import { kEmpty, removed, signPlace, withPlaces, type Project } from './project'
 
 const kRate = 50
 /** The report of n signs of a second each, half a second apart. */
-function reportOf(n: number): Report {
+function reportOf(n: number): Synthesis {
   const range = (begin: number, end: number) => ({ begin: begin * kRate, end: end * kRate })
   const each = Array.from({ length: n }, (_, k) => k * 1.5)
-  return {
+  return synthesisAnswer({
     frames: 1.5 * n * kRate,
     frames_per_second: kRate,
-    signs: each.map((at, k) => ({
-      gloss: 'A',
-      place: k,
-      clip: k,
-      recording: 'r',
-      begin_ms: 1000 * at,
-      end_ms: 1000 * (at + 1),
-      recorded: { begin_ms: 0, end_ms: 1000 },
-    })),
+    signs: each.map((at, k) => signAnswer({ place: k, clip: k, begin_ms: 1000 * at, end_ms: 1000 * (at + 1) })),
     clips: each.map((at, k) => ({
       clip: k,
       place: k,
@@ -31,18 +24,8 @@ function reportOf(n: number): Report {
       kept_from_recorded_frame: 0,
       recorded_frames_per_frame: 1,
     })),
-    junctions: each.slice(1).map((at, k) => ({
-      from_clip: k,
-      to_clip: k + 1,
-      frames: range(at - 0.5, at),
-      method: 'gap',
-      from: 'A',
-      to: 'A',
-      retraction_frames: 1,
-      preparation_frames: 1,
-      blend_frames: 1,
-    })),
-  }
+    junctions: each.slice(1).map((at, k) => junctionAnswer({ to_clip: k + 1, frames: range(at - 0.5, at) })),
+  })
 }
 /** Shows a project as if the server had answered. */
 function show(making: Making, project: Project) {

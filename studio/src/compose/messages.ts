@@ -243,7 +243,7 @@ const fr: Messages = {
   filmGathering: 'Chargement du mouvement…',
   cancel: 'Annuler',
   noWebCodecs:
-    'Ce navigateur ne peut pas encoder de vidéo : WebCodecs lui manque (ou la page n’a pas été chargée en https). signweave render crée la même vidéo.',
+    'Ce navigateur ne peut pas encoder de vidéo : il n’a pas WebCodecs (ou la page n’a pas été chargée en https). signweave render crée la même vidéo.',
   filmMade: 'La vidéo a été téléchargée : {n} images',
   empty: 'Rien à signer pour l’instant. Tapez des gloses ci-dessus, ou :',
   forAll: 'Réglages généraux',

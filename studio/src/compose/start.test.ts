@@ -1,5 +1,6 @@
 import { expect, it } from 'vitest'
-import type { CandidateRow } from '../api/answers'
+import type { Candidate } from '../api/schema'
+import { segmentAnswer } from '../api/test_answers'
 import type { Api } from '../api/client'
 import { ApiError } from '../api/fault'
 import { glossesOf } from './complete'
@@ -8,7 +9,7 @@ import { kEmpty, signPlace, withPlaces } from './project'
 import { mainSigns, projectFrom } from './start'
 import { textOf } from './utterance'
 
-const answer = (name: string, begin_ms: number, tier = 'Gloss', recording = 'r') => ({ name, begin_ms, end_ms: begin_ms + 400, tier, recording })
+const answer = (name: string, begin_ms: number, tier = 'Gloss', recording = 'r') => segmentAnswer({ name, begin_ms, end_ms: begin_ms + 400, tier, recording })
 
 it('takes the sign tier with the most signs, on equal numbers the first by name', () => {
   expect(mainSigns([answer('A', 0, 'L'), answer('C', 900), answer('B', 500)]).map(({ name }) => name)).toEqual(['B', 'C'])
@@ -17,7 +18,7 @@ it('takes the sign tier with the most signs, on equal numbers the first by name'
 })
 
 it('converts a recording’s signs to places with their own tokens, or to pieces if they have none', async () => {
-  const row = (token: number, recording: string, begin: number): CandidateRow => ({
+  const row = (token: number, recording: string, begin: number): Candidate => ({
     token,
     recording,
     frames: { begin, end: begin + 20 },
@@ -25,10 +26,10 @@ it('converts a recording’s signs to places with their own tokens, or to pieces
     target_cost: 0,
     target: {},
   })
-  const tokens: Record<string, readonly CandidateRow[]> = { A: [row(1, 'q', 0), row(2, 'r', 0), row(3, 'r', 145)], B: [row(1, 'r', 50)] }
+  const tokens: Record<string, readonly Candidate[]> = { A: [row(1, 'q', 0), row(2, 'r', 0), row(3, 'r', 145)], B: [row(1, 'r', 50)] }
   const asked: string[] = []
   const api = {
-    recording: async () => ({ clock_origin_ms: 0, frames_per_second: 50 }),
+    recording: async () => ({ frames: 200, frames_per_second: 50, clock_origin_ms: 0 }),
     signs: async () => [answer('A', 0), answer('B', 1000), answer('X', 1500), answer('A', 2900)],
     explained: async (_: string, { utterance }: { utterance: string }) => {
       asked.push(utterance)

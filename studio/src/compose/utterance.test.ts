@@ -1,5 +1,5 @@
 import { expect, it, vi } from 'vitest'
-import type { UtteranceAnswer } from '../api/answers'
+import type { UtteranceFault as UtteranceFaultRow, UtteranceText } from '../api/schema'
 import { carried } from './carry'
 import { piecePlace, signPlace, withJoin, withPlaces, kEmpty, type Place } from './project'
 import { signs } from './test_places'
@@ -8,7 +8,7 @@ import { canBeTyped, readerOf, textOf, UtteranceFault, wordOf } from './utteranc
 const plain = ({ id: _, ...rest }: Place) => rest
 
 it('makes places of what the server reads', async () => {
-  const answer: UtteranceAnswer = {
+  const answer: UtteranceText = {
     places: [
       { gloss: 'MATIN', token: 2, begin: 0, end: 7 },
       { gloss: 'LE MANS', pause: 'comma', begin: 10, end: 19 },
@@ -22,13 +22,21 @@ it('makes places of what the server reads', async () => {
   const { places, pause } = await read('MATIN#2 , "LE MANS" . r@1..20 ,')
   expect(places.map(plain)).toEqual([signPlace('MATIN', 2), signPlace('LE MANS', 0, 'comma'), piecePlace('r', 1, 20, 'stop')].map(plain))
   expect(pause).toBe('comma')
-  // Nothing is asked for where nothing is written.
+  // An empty text sends no request.
   expect([await read(' \t'), ask.mock.calls.length]).toEqual([{ places: [], pause: 'none' }, 1])
 })
 
 it('throws the first fault, at its place in the text', async () => {
   const text = '😀 A "手'
-  const fault = { code: 'open_quote', message: 'm', line: 1, column: 5, begin: 4, end: 6, remedies: [{ parameter: 'text', value: '😀 A "手"' }] }
+  const fault: UtteranceFaultRow = {
+    code: 'open_quote',
+    message: 'm',
+    line: 1,
+    column: 5,
+    begin: 4,
+    end: 6,
+    remedies: [{ parameter: 'text', value: '😀 A "手"' }],
+  }
   const thrown = await readerOf(() => Promise.resolve({ places: [], faults: [fault] }))(text).catch((wrong: unknown) => wrong)
   expect(thrown).toBeInstanceOf(UtteranceFault)
   const { range, corrected } = thrown as UtteranceFault
@@ -56,7 +64,7 @@ it('quotes names that would be read as something else', () => {
   expect(['A"B', '"A', 'A "B', ' ', ''].map(canBeTyped)).toEqual([true, false, false, false, false])
 })
 
-it('keeps, where a text is typed again, which place is which and how it is joined', () => {
+it('preserves the identity and junction of each place when a text is typed again', () => {
   const before = withJoin(withPlaces(kEmpty, signs('A', 'B', 'C', 'D')), 2, { method: 'gap' }).places
   const ids = (...glosses: string[]) => carried(before, signs(...glosses)).map(({ id }) => before.findIndex((one) => one.id === id))
   expect(ids('A', 'B', 'C', 'D')).toEqual([0, 1, 2, 3])

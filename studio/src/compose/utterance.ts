@@ -1,4 +1,5 @@
-import type { UtteranceAnswer, UtteranceFaultRow } from '../api/answers'
+import { StudioFault } from '../api/fault'
+import type { UtteranceFault as UtteranceFaultRow, UtterancePlace, UtteranceText } from '../api/schema'
 import { piecePlace, signPlace, type Pause, type Place } from './project'
 
 /** A text that cannot be read as an utterance: the first of its faults. */
@@ -15,7 +16,7 @@ export class UtteranceFault extends Error {
     const begin = characters.slice(0, this.row.begin).join('').length
     return { begin, end: begin + characters.slice(this.row.begin, this.row.end).join('').length }
   }
-  /** The text without the fault, if the server can tell. */
+  /** The text without the fault, if the server knows it. */
   get corrected(): string | undefined {
     return this.row.remedies?.find(({ parameter }) => parameter === 'text')?.value
   }
@@ -30,18 +31,19 @@ export interface Reading {
 export type ReadText = (text: string, signal?: AbortSignal) => Promise<Reading>
 
 /** Reads texts by the server's grammar, which is the only one. */
-export function readerOf(ask: (text: string, signal?: AbortSignal) => Promise<UtteranceAnswer>): ReadText {
+export function readerOf(ask: (text: string, signal?: AbortSignal) => Promise<UtteranceText>): ReadText {
   return async (text, signal) => {
     if (text.trim() === '') return { places: [], pause: 'none' }
     const { places, pause, faults } = await ask(text, signal)
     if (faults.length > 0) throw new UtteranceFault(text, faults[0])
-    return {
-      places: places.map((one) =>
-        'recording' in one ? piecePlace(one.recording, one.from_ms, one.to_ms, one.pause) : signPlace(one.gloss, one.token, one.pause),
-      ),
-      pause: pause ?? 'none',
-    }
+    return { places: places.map(placeOf), pause: pause ?? 'none' }
   }
+}
+
+function placeOf({ gloss, token, recording, from_ms, to_ms, pause }: UtterancePlace): Place {
+  if (recording !== undefined && from_ms !== undefined && to_ms !== undefined) return piecePlace(recording, from_ms, to_ms, pause)
+  if (gloss !== undefined) return signPlace(gloss, token, pause)
+  throw new StudioFault('badAnswer', 'a place without a gloss')
 }
 
 /** A name as it must be typed: quoted if the server would otherwise read something else. */
@@ -50,12 +52,12 @@ export function quoted(name: string): string {
   return bare ? name : `"${name}"`
 }
 
-/** Whether a name can be typed at all: one that holds a quote and cannot stand bare cannot. */
+/** Whether a name can be typed at all: a name that contains a quote and requires quotes cannot. */
 export function canBeTyped(name: string): boolean {
   return name.trim() !== '' && (quoted(name) === name || !name.includes('"'))
 }
 
-/** A place as it is typed, without what stands before it. */
+/** A place as it is typed, without the pause before it. */
 export function wordOf(place: Place): string {
   if (place.kind === 'piece') return `${quoted(place.recording)}@${place.from}..${place.to}`
   return quoted(place.gloss) + (place.token > 0 ? `#${place.token}` : '')

@@ -1,5 +1,5 @@
 import { beforeEach, describe, expect, it, vi } from 'vitest'
-import type { JobState } from '../api/answers'
+import type { JobState } from '../api/types'
 import type { Api } from '../api/client'
 import { ApiError, StudioFault } from '../api/fault'
 import type { Evaluation } from './evaluation'

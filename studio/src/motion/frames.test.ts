@@ -62,7 +62,12 @@ describe('the layout of frames', () => {
 })
 
 describe('frames in an answer', () => {
-  const motionHeader: MotionHeader = { ...kHeader, frames: 3, origin_ms: 120, rig: { parts: { left_hand: { joint: 'hand', index: 1 } } } }
+  const motionHeader: MotionHeader = {
+    ...kHeader,
+    frames: 3,
+    origin_ms: 120,
+    rig: { parts: { left_hand: { joint: 'hand', index: 1, evidence: 'name', confidence: 1 } } },
+  }
   /** The bytes of an answer of two messages, in parts of `size` bytes. */
   function body(size: number, header = motionHeader, cut = 0): ReadableStream<Uint8Array> {
     const text = new TextEncoder().encode(JSON.stringify(header)),

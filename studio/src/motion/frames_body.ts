@@ -1,5 +1,5 @@
 import { StudioFault } from '../api/fault'
-import type { PartRow, Report } from '../api/answers'
+import type { RigPart, Synthesis } from '../api/schema'
 import { kMessageHeaderBytes, messageHead, type FrameBlock, type FramesHeader } from './frames'
 import type { Rig } from './skeleton'
 
@@ -10,9 +10,9 @@ export interface MotionHeader extends FramesHeader {
   /** Annotation time of frame 0, ms. */
   readonly origin_ms: number
   /** Maps parts to joints; missing if the rig map could not be determined. */
-  readonly rig?: { readonly parts: Readonly<Record<string, PartRow>>; readonly sides_swapped?: boolean }
+  readonly rig?: { readonly parts: Readonly<Record<string, RigPart>>; readonly sides_swapped?: boolean }
   /** For generated motion; for a piece of a file to be imported, which piece it is. */
-  readonly report?: Report & { readonly piece?: { /** Of the file. */ readonly frames_per_second: number } }
+  readonly report?: Synthesis & { readonly piece?: { /** Of the file. */ readonly frames_per_second: number } }
 }
 
 /** Receives the header, then the frames as they arrive; their bytes are valid only until the call returns. */
@@ -23,7 +23,13 @@ export interface FrameTaker {
 
 /** Maps parts to joints; empty if the rig map could not be determined. */
 export function rigOf({ rig }: Pick<MotionHeader, 'rig'>): Rig {
-  return Object.fromEntries(Object.entries(rig?.parts ?? {}).map(([part, { index, offset }]) => [part, { joint: index, offset }]))
+  return Object.fromEntries(Object.entries(rig?.parts ?? {}).map(([part, { index, offset }]) => [part, { joint: index, offset: vectorOf(offset) }]))
+}
+function vectorOf(offset: readonly number[] | undefined): readonly [number, number, number] | undefined {
+  if (!offset) return undefined
+  const [x, y, z] = offset
+  if (offset.length !== 3) throw new StudioFault('badAnswer', `an offset of ${offset.length} numbers`)
+  return [x, y, z]
 }
 
 const kLongestText = 64 << 20

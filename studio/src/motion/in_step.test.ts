@@ -1,8 +1,9 @@
 import { expect, it } from 'vitest'
+import { signAnswer } from '../api/test_answers'
 import { correspondingTime, stepsOfSigns } from './in_step'
 
 it('pairs the k-th sign with the k-th sign, and interpolates between their bounds', () => {
-  const sign = (begin_ms: number, end_ms: number) => ({ gloss: 'X', place: 0, clip: 0, begin_ms, end_ms, recording: 'r', recorded: { begin_ms: 0, end_ms: 1 } })
+  const sign = (begin_ms: number, end_ms: number) => signAnswer({ begin_ms, end_ms })
   const steps = stepsOfSigns(
     [sign(1000, 2000), sign(3000, 4000)],
     [

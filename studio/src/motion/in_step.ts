@@ -1,4 +1,4 @@
-import type { ReportSign } from '../api/answers'
+import type { ReportSign } from '../api/schema'
 
 /** Corresponding times of two motions, in seconds from frame 0 of either; both lists ascend. */
 export interface Steps {

@@ -1,4 +1,4 @@
-import type { Api, PieceWishes } from '../api/client'
+import type { Api, PieceOptions } from '../api/client'
 import type { MotionSource, OpenedMotion } from './source'
 import { wholeMotion } from './whole_motion'
 
@@ -15,7 +15,7 @@ export class PieceSource implements MotionSource {
     private readonly api: Api,
     private readonly database: string,
     private readonly recording: string,
-    private readonly options: PieceWishes,
+    private readonly options: PieceOptions,
     readonly title = recording,
   ) {}
 

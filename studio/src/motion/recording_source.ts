@@ -1,4 +1,4 @@
-import type { RecordingInfo } from '../api/answers'
+import { withMotion, type MovingRecording } from '../api/types'
 import type { Api } from '../api/client'
 import { StudioFault } from '../api/fault'
 import { declarationsOf, frameBytes, skeletonOf } from './frames'
@@ -30,7 +30,7 @@ export class RecordingSource implements MotionSource {
   private readonly abort = new AbortController()
   private wanted: number
   private moved?: () => void
-  private info!: RecordingInfo
+  private info!: MovingRecording
   private opened?: OpenedMotion
 
   /** `character` names the character whose joints the poses are for; playback starts at `startSeconds` from frame 0. */
@@ -46,7 +46,7 @@ export class RecordingSource implements MotionSource {
   }
 
   async open(): Promise<OpenedMotion> {
-    this.info = await this.api.recording(this.database, this.recording)
+    this.info = withMotion(await this.api.recording(this.database, this.recording))
     const { frames, frames_per_second: rate } = this.info
     const start = Math.min(Math.max(0, Math.floor(this.wanted * rate)), Math.max(0, frames - 1))
     const { first, end } = nextPiece(start, frames, rate, 0)

@@ -1,4 +1,4 @@
-import type { Report, ReportSign } from '../api/answers'
+import type { ReportSign, Synthesis } from '../api/schema'
 import type { Declarations } from './declarations'
 import type { FrameStore } from './frame_store'
 import type { Rig } from './skeleton'
@@ -39,5 +39,5 @@ export interface OpenedMotion {
   /** For generated motion: its signs and where they were recorded. */
   readonly signs?: readonly ReportSign[]
   /** The full report of how it was generated. */
-  readonly report?: Report
+  readonly report?: Synthesis
 }

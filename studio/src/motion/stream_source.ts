@@ -1,5 +1,7 @@
 import type { Api } from '../api/client'
-import { errorOf, StudioFault, type Refusal } from '../api/fault'
+import { errorOf, StudioFault } from '../api/fault'
+import type { FaultText } from '../api/schema'
+import { withMotion } from '../api/types'
 import { FrameStore } from './frame_store'
 import { declarationsOf, decodeMessage, skeletonOf, type FrameBlock, type FramesHeader } from './frames'
 import { rigOf } from './frames_body'
@@ -118,7 +120,7 @@ export class StreamSource implements MotionSource {
 
   /** A stream does not contain the rig map; a frame of the recording does, in the same joints. */
   private async rig(recording: string): Promise<Rig> {
-    const { clock_origin_ms: from } = await this.api.recording(this.database, recording)
+    const { clock_origin_ms: from } = withMotion(await this.api.recording(this.database, recording))
     let rig: Rig = {}
     await this.api.motion(this.database, recording, from, from + 20, this.character, { begin: (header) => (rig = rigOf(header)), take: () => {} })
     return rig
@@ -129,12 +131,12 @@ export class StreamSource implements MotionSource {
     const asked = this.asked.get(String(message.id))
     if (asked) {
       this.asked.delete(String(message.id))
-      return type === 'error' ? asked.reject(errorOf(message as unknown as Refusal, 0)) : asked.resolve()
+      return type === 'error' ? asked.reject(errorOf(message as unknown as FaultText, 0)) : asked.resolve()
     }
     if (type === 'header') {
       this.header = message as unknown as FramesHeader
     } else if (type === 'error') {
-      const fault = errorOf(message as unknown as Refusal, 0)
+      const fault = errorOf(message as unknown as FaultText, 0)
       // Before the first frame the fault is final; later the stream continues.
       if (this.header) this.onNotice?.(fault)
       else fail(fault)

@@ -1,4 +1,4 @@
-import type { MediaRow } from '../api/answers'
+import type { MediaRow } from '../api/schema'
 import type { Api } from '../api/client'
 import { ApiError } from '../api/fault'
 import type { AnnotationDocument } from '../annotation/document'

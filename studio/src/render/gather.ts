@@ -1,5 +1,6 @@
 import type { Api } from '../api/client'
 import { StudioFault } from '../api/fault'
+import { withMotion } from '../api/types'
 import { declarationsOf, skeletonOf } from '../motion/frames'
 import { rigOf, type FrameTaker } from '../motion/frames_body'
 import { FrameStore } from '../motion/frame_store'
@@ -35,7 +36,7 @@ export async function gather(api: Api, { database, call, parameters, character }
 async function spanOf(api: Api, database: string, parameters: RenderRequest['parameters']): Promise<{ recording: string; from: number; to: number }> {
   const { recording, from, to } = parameters as { recording: string; from?: number; to?: number }
   if (typeof from === 'number' && typeof to === 'number') return { recording, from, to }
-  const info = await api.recording(database, recording)
+  const info = withMotion(await api.recording(database, recording))
   const end = info.clock_origin_ms + Math.ceil((1000 * info.frames) / info.frames_per_second)
   return { recording, from: from ?? info.clock_origin_ms, to: to ?? end }
 }

@@ -1,4 +1,4 @@
-import type { NoticeRow } from '../api/answers'
+import type { Notice } from '../api/schema'
 import type { Api } from '../api/client'
 import { AnswerReader, type Answer } from './answers'
 import { CsvReader } from './csv'
@@ -11,7 +11,7 @@ export class Asking {
   answers = $state.raw<readonly Answer[]>([])
   variables = $state.raw<readonly string[]>([])
   ranked = $state(false)
-  notices = $state.raw<readonly NoticeRow[]>([])
+  notices = $state.raw<readonly Notice[]>([])
   fault = $state.raw<unknown>()
   /** The last query. */
   text = $state('')

@@ -1,11 +1,11 @@
-import type { TierLabels, Vocabulary } from '../api/answers'
+import type { Labels, Vocabulary } from '../api/schema'
 import { quoted } from './answers'
 import { contextAfter, isCall, type Context } from './context'
 import { kAngles, kComponentsOf, kMomentsOf, kNamesOf, kNumberOf, kRelations, kTextFields, kTimes, kZones } from './language'
 import { scan, type Token } from './scan'
 
 /** The vocabulary for completion; `tracks` are those of the face, `labels` those of the tiers requested so far. */
-export type Words = Vocabulary & { readonly tracks?: readonly string[]; readonly labels?: ReadonlyMap<string, TierLabels['labels']> }
+export type Words = Vocabulary & { readonly tracks?: readonly string[]; readonly labels?: ReadonlyMap<string, Labels['labels']> }
 
 export interface Option {
   /** The label in the list. */

@@ -1,4 +1,4 @@
-import type { MediaRow } from '../api/answers'
+import type { MediaRow } from '../api/schema'
 
 /**
  * Returns the time of the video in seconds for a time of the motion in seconds from frame 0. `originMs` is the annotation time of frame 0, `mediaOriginMs` the

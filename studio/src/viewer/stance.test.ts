@@ -84,7 +84,7 @@ it('draws a body that matches its joints, however they were rotated when it was 
   body.object.updateMatrixWorld(true)
   const mesh = body.object.children.find((one) => 'isSkinnedMesh' in one) as import('three').SkinnedMesh
   mesh.skeleton.update()
-  // Among the vertices attached to one joint only, the nearest is no farther from it than flesh is thick.
+  // Among the vertices attached to one joint only, the nearest is within the thickness of flesh.
   const places = mesh.geometry.getAttribute('position'),
     carriers = mesh.geometry.getAttribute('skinIndex'),
     at = new Vector3()

@@ -1,4 +1,4 @@
-import type { CharacterRow } from '../api/answers'
+import type { CharacterRow } from '../api/schema'
 import type { Api } from '../api/client'
 import { preferences } from '../ui/preferences.svelte'
 import type { CharacterModel } from './character_model'

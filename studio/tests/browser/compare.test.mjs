@@ -2,6 +2,7 @@
 import assert from 'node:assert/strict'
 import { readFileSync } from 'node:fs'
 import { axeFaults, transport } from './page_tools.mjs'
+import { kViewports } from './corpus_tools.mjs'
 import { address, context, kDeclared, page, test, visit } from './suite.mjs'
 import { frames, until } from './waits.mjs'
 
@@ -397,48 +398,39 @@ test('a stored study that cannot be shown stays until it is deleted, and can be 
   await until(async () => assert.equal(await kept(), null))
 })
 
-for (const [theme, language] of [
-  ['dark', 'en'],
-  ['light', 'fr'],
-]) {
-  for (const size of [
-    { width: 1280, height: 720 },
-    { width: 390, height: 844 },
-  ]) {
-    test(`an accessibility checker finds nothing in a study, ${theme}, ${language}, ${size.width} wide`, async () => {
-      const found = []
-      const look = async (name) => {
-        found.push(...(await axeFaults(page)).map((fault) => `${name}: ${fault}`))
-        assert.ok(
-          await page.evaluate(
-            () =>
-              document.scrollingElement.scrollWidth <= innerWidth && document.querySelector('main').scrollWidth <= document.querySelector('main').clientWidth,
-          ),
-          `${name} is wider than the screen`,
-        )
-      }
-      await page.evaluate(([t, l]) => (localStorage.setItem('signweave.theme', t), localStorage.setItem('signweave.language', l)), [theme, language])
-      await visit('#/demo/compare', { size })
-      await page.emulateMedia({ reducedMotion: 'reduce' })
-      await page.waitForFunction(() => document.querySelector('form button.primary')?.disabled === false)
-      await page.locator('summary').click()
-      await page.locator('input[type=radio][value=true]').check()
-      await look('setting up')
-      await page.locator('input[type=radio][value=false]').check()
-      await page.locator('form button.primary').click()
-      await page.locator('input[name=fluency]').first().check()
-      await look('before')
-      await page.locator('form button.primary').click()
-      await seen()
-      await look('a trial')
-      await page.locator('.leave').click()
-      await page.locator('summary').click()
-      await look('for whoever runs it')
-      await page.locator('.remove').click()
-      await look('deleting')
-      await page.evaluate(() => (localStorage.removeItem('signweave.theme'), localStorage.removeItem('signweave.language')))
-      await forget()
-      assert.deepEqual(found, [])
-    })
-  }
+for (const { size, name, set } of kViewports) {
+  test(`an accessibility checker finds nothing in a study, ${name}`, async () => {
+    const found = []
+    const look = async (name) => {
+      found.push(...(await axeFaults(page)).map((fault) => `${name}: ${fault}`))
+      assert.ok(
+        await page.evaluate(
+          () => document.scrollingElement.scrollWidth <= innerWidth && document.querySelector('main').scrollWidth <= document.querySelector('main').clientWidth,
+        ),
+        `${name} is wider than the screen`,
+      )
+    }
+    await set()
+    await visit('#/demo/compare', { size })
+    await page.emulateMedia({ reducedMotion: 'reduce' })
+    await page.waitForFunction(() => document.querySelector('form button.primary')?.disabled === false)
+    await page.locator('summary').click()
+    await page.locator('input[type=radio][value=true]').check()
+    await look('setting up')
+    await page.locator('input[type=radio][value=false]').check()
+    await page.locator('form button.primary').click()
+    await page.locator('input[name=fluency]').first().check()
+    await look('before')
+    await page.locator('form button.primary').click()
+    await seen()
+    await look('a trial')
+    await page.locator('.leave').click()
+    await page.locator('summary').click()
+    await look('for whoever runs it')
+    await page.locator('.remove').click()
+    await look('deleting')
+    await page.evaluate(() => (localStorage.removeItem('signweave.theme'), localStorage.removeItem('signweave.language')))
+    await forget()
+    assert.deepEqual(found, [])
+  })
 }

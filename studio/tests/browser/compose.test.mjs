@@ -3,6 +3,7 @@ import assert from 'node:assert/strict'
 import { button, cards, compose, field, pause, pick, saved, shown } from './compose_tools.mjs'
 import { axeFaults, transport } from './page_tools.mjs'
 import { decoded, readWebm } from './render_webm.mjs'
+import { kViewports } from './corpus_tools.mjs'
 import { context, kDeclared, mainTest, page, test, visit } from './suite.mjs'
 import { until } from './waits.mjs'
 
@@ -359,41 +360,33 @@ test('reports if the browser cannot encode video', async () => {
   await page.keyboard.press('Escape')
 })
 
-for (const [theme, language] of [
-  ['dark', 'en'],
-  ['light', 'fr'],
-]) {
-  for (const size of [
-    { width: 1280, height: 720 },
-    { width: 390, height: 844 },
-  ]) {
-    test(`an accessibility checker finds nothing on the compose page, ${theme}, ${language}, ${size.width} wide`, async () => {
-      if (!page) await visit('')
-      await page.evaluate(([t, l]) => (localStorage.setItem('signweave.theme', t), localStorage.setItem('signweave.language', l)), [theme, language])
-      const found = []
-      const look = async (what) => {
-        found.push(...(await axeFaults(page)).map((fault) => `${what}: ${fault}`))
-        assert.ok(await page.evaluate(() => document.scrollingElement.scrollWidth <= innerWidth), `${what} is wider than the screen`)
-      }
-      try {
-        await visit('#/demo/compose', { size })
-        await page.locator('.empty button').first().waitFor()
-        await look('nothing yet')
-        await page.getByRole('combobox').first().press('ArrowDown')
-        await look('completion')
-        await compose('VANNES MATIN', {}, { size })
-        await page.locator('.card').last().click()
-        await page.locator('aside .token').first().waitFor()
-        await look('tokens')
-        await page.locator('.junction').first().click()
-        await pause()
-        await look('junction')
-        await page.locator('.menu button').first().click()
-        await look('menu')
-      } finally {
-        await page.evaluate(() => (localStorage.removeItem('signweave.theme'), localStorage.removeItem('signweave.language')))
-      }
-      assert.deepEqual(found, [])
-    })
-  }
+for (const { size, name, set } of kViewports) {
+  test(`an accessibility checker finds nothing on the compose page, ${name}`, async () => {
+    if (!page) await visit('')
+    await set()
+    const found = []
+    const look = async (what) => {
+      found.push(...(await axeFaults(page)).map((fault) => `${what}: ${fault}`))
+      assert.ok(await page.evaluate(() => document.scrollingElement.scrollWidth <= innerWidth), `${what} is wider than the screen`)
+    }
+    try {
+      await visit('#/demo/compose', { size })
+      await page.locator('.empty button').first().waitFor()
+      await look('nothing yet')
+      await page.getByRole('combobox').first().press('ArrowDown')
+      await look('completion')
+      await compose('VANNES MATIN', {}, { size })
+      await page.locator('.card').last().click()
+      await page.locator('aside .token').first().waitFor()
+      await look('tokens')
+      await page.locator('.junction').first().click()
+      await pause()
+      await look('junction')
+      await page.locator('.menu button').first().click()
+      await look('menu')
+    } finally {
+      await page.evaluate(() => (localStorage.removeItem('signweave.theme'), localStorage.removeItem('signweave.language')))
+    }
+    assert.deepEqual(found, [])
+  })
 }

@@ -51,7 +51,7 @@ mainTest('files dropped on the list of recordings appear in the import, with the
   files('monday', { into: join(week, 'early'), seconds: 1 })
   const mouse = await mouseOf(page, { paths: [week, ...files('alone', { seconds: 1 })] })
   await mouse.over()
-  await until(async () => assert.match(await overlay().textContent(), /Drop recordings and annotation to import them into mine/))
+  await until(async () => assert.match(await overlay().textContent(), /Drop recordings and annotations to import them into mine/))
   await mouse.drop()
   await page.waitForFunction(() => location.hash === '#/mine/import')
   await page.getByText(/^Files: 4,/).waitFor()

@@ -4,6 +4,7 @@ import { execFileSync } from 'node:child_process'
 import { readFileSync, writeFileSync } from 'node:fs'
 import { join } from 'node:path'
 import { axeFaults } from './page_tools.mjs'
+import { kViewports } from './corpus_tools.mjs'
 import { context, folder, kDeclared, mainTest, page, test, visit } from './suite.mjs'
 import { until } from './waits.mjs'
 
@@ -227,33 +228,25 @@ test('shows by collection which method may be the default', async () => {
   await until(async () => assert.equal(await page.locator('#judged').count(), 0))
 })
 
-for (const [theme, language] of [
-  ['dark', 'en'],
-  ['light', 'fr'],
-]) {
-  for (const size of [
-    { width: 1280, height: 720 },
-    { width: 390, height: 844 },
-  ]) {
-    test(`an accessibility checker finds nothing in an evaluation, ${theme}, ${language}, ${size.width} wide`, async () => {
-      await page.evaluate(([t, l]) => (localStorage.setItem('signweave.theme', t), localStorage.setItem('signweave.language', l)), [theme, language])
-      await visit('#/demo/evaluate', { size })
-      assert.deepEqual(await axeFaults(page), [])
-      const [chooser] = await Promise.all([page.waitForEvent('filechooser'), page.locator('.open button').click()])
-      await chooser.setFiles(join(folder, 'command_line.json'))
-      await result()
-      for (const summary of await page.locator('summary').all()) await summary.click()
-      assert.deepEqual(await axeFaults(page), [])
-      assert.ok(
-        await page.evaluate(
-          () =>
-            document.scrollingElement.scrollHeight <= innerHeight &&
-            document.scrollingElement.scrollWidth <= innerWidth &&
-            document.querySelector('main').scrollWidth <= document.querySelector('main').clientWidth,
-        ),
-        'wider than the screen',
-      )
-      await page.evaluate(() => (localStorage.removeItem('signweave.theme'), localStorage.removeItem('signweave.language')))
-    })
-  }
+for (const { size, name, set } of kViewports) {
+  test(`an accessibility checker finds nothing in an evaluation, ${name}`, async () => {
+    await set()
+    await visit('#/demo/evaluate', { size })
+    assert.deepEqual(await axeFaults(page), [])
+    const [chooser] = await Promise.all([page.waitForEvent('filechooser'), page.locator('.open button').click()])
+    await chooser.setFiles(join(folder, 'command_line.json'))
+    await result()
+    for (const summary of await page.locator('summary').all()) await summary.click()
+    assert.deepEqual(await axeFaults(page), [])
+    assert.ok(
+      await page.evaluate(
+        () =>
+          document.scrollingElement.scrollHeight <= innerHeight &&
+          document.scrollingElement.scrollWidth <= innerWidth &&
+          document.querySelector('main').scrollWidth <= document.querySelector('main').clientWidth,
+      ),
+      'wider than the screen',
+    )
+    await page.evaluate(() => (localStorage.removeItem('signweave.theme'), localStorage.removeItem('signweave.language')))
+  })
 }

@@ -2,7 +2,7 @@
 import assert from 'node:assert/strict'
 import { existsSync, readFileSync, readdirSync } from 'node:fs'
 import { join } from 'node:path'
-import { annotation, button, empty, files, kThanks } from './corpus_tools.mjs'
+import { annotation, button, empty, files, kThanks, kViewports } from './corpus_tools.mjs'
 import { axeFaults } from './page_tools.mjs'
 import { page, test, visit } from './suite.mjs'
 import { opened, until } from './waits.mjs'
@@ -156,32 +156,24 @@ test('follows the path of a folder of EAF and BVH, from an empty database to a f
   await empty()
 })
 
-for (const [theme, language] of [
-  ['dark', 'en'],
-  ['light', 'fr'],
-]) {
-  for (const size of [
-    { width: 1280, height: 720 },
-    { width: 390, height: 844 },
-  ]) {
-    test(`an accessibility checker finds nothing in the guide, ${theme}, ${language}, ${size.width} wide`, async () => {
-      await page.evaluate(([t, l]) => (localStorage.setItem('signweave.theme', t), localStorage.setItem('signweave.language', l)), [theme, language])
-      await visit('#/demo/guide', { size })
-      const found = []
-      const look = async (name) => {
-        found.push(...(await axeFaults(page)).map((fault) => `${name}: ${fault}`))
-        assert.ok(await page.evaluate(() => document.scrollingElement.scrollWidth <= innerWidth), `${name} is wider than the screen`)
-      }
-      await page.locator('form button.primary:enabled').first().waitFor()
-      await look('paths')
-      await page.locator('form button.primary').first().click()
-      await page.waitForSelector('.guide section')
-      await page.waitForSelector('main table')
-      await look('panel')
-      const height = await page.evaluate(() => document.querySelector('.guide').getBoundingClientRect().height)
-      assert.ok(height < (size.width > 640 ? 60 : 110), `${height} pixels`)
-      await page.evaluate(() => ['theme', 'language', 'guide'].forEach((key) => localStorage.removeItem(`signweave.${key}`)))
-      assert.deepEqual(found, [])
-    })
-  }
+for (const { size, name, set } of kViewports) {
+  test(`an accessibility checker finds nothing in the guide, ${name}`, async () => {
+    await set()
+    await visit('#/demo/guide', { size })
+    const found = []
+    const look = async (name) => {
+      found.push(...(await axeFaults(page)).map((fault) => `${name}: ${fault}`))
+      assert.ok(await page.evaluate(() => document.scrollingElement.scrollWidth <= innerWidth), `${name} is wider than the screen`)
+    }
+    await page.locator('form button.primary:enabled').first().waitFor()
+    await look('paths')
+    await page.locator('form button.primary').first().click()
+    await page.waitForSelector('.guide section')
+    await page.waitForSelector('main table')
+    await look('panel')
+    const height = await page.evaluate(() => document.querySelector('.guide').getBoundingClientRect().height)
+    assert.ok(height < (size.width > 640 ? 60 : 110), `${height} pixels`)
+    await page.evaluate(() => ['theme', 'language', 'guide'].forEach((key) => localStorage.removeItem(`signweave.${key}`)))
+    assert.deepEqual(found, [])
+  })
 }

@@ -60,7 +60,7 @@ test('imports files dropped on the start page into a database that is not a demo
 test('the start page can be reached from an address of something missing', async () => {
   await visit('#/nowhere')
   await page.getByRole('alert').waitFor()
-  await link('Start').click()
+  await link('Home').click()
   await at('#/')
   await page.locator('#home-title').waitFor()
 })

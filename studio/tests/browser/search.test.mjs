@@ -2,6 +2,7 @@
 import assert from 'node:assert/strict'
 import { axeFaults, computedBy, transport } from './page_tools.mjs'
 import { addressOf, answered, asked, button, field, kAll, list, status } from './search_tools.mjs'
+import { kViewports } from './corpus_tools.mjs'
 import { address, kDeclared, mainTest, page, test, visit } from './suite.mjs'
 import { opened, until } from './waits.mjs'
 
@@ -428,42 +429,34 @@ test('reports a refusal by the server, and keeps the previous answers', async ()
   await answered(3)
 })
 
-for (const [theme, language] of [
-  ['dark', 'en'],
-  ['light', 'fr'],
-]) {
-  for (const size of [
-    { width: 1280, height: 720 },
-    { width: 390, height: 844 },
-  ]) {
-    test(`an accessibility checker finds nothing in the search, ${theme}, ${language}, ${size.width} wide`, async () => {
-      await page.evaluate(([t, l]) => (localStorage.setItem('signweave.theme', t), localStorage.setItem('signweave.language', l)), [theme, language])
-      const found = []
-      for (const hash of [
-        '#/demo/search',
-        addressOf('gloss = "VANNES" | gloss = "METEO"'),
-        addressOf('like("villes"@1200..3010)', '&view=grid'),
-        addressOf('glos = "X"'),
-        addressOf('gloss = VANES'),
-      ]) {
-        await visit(hash, { size, still: true })
-        await page.waitForFunction(() => document.querySelector('#examples-title, [data-status=answered], .marked'))
-        if (/VANNES/.test(hash)) await page.locator('summary').click()
-        found.push(...(await axeFaults(page)).map((fault) => `${hash}: ${fault}`))
-        assert.ok(
-          await page.evaluate(() => document.scrollingElement.scrollWidth <= innerWidth && document.querySelector('main').scrollWidth <= innerWidth),
-          `${hash} is wider than the screen`,
-        )
-        if (hash === '#/demo/search') {
-          await field().fill('gloss = ')
-          await completions()
-          await page.keyboard.press('Escape')
-          await page.locator('.does button').last().click()
-          found.push(...(await axeFaults(page)).map((fault) => `language: ${fault}`))
-        }
+for (const { size, name, set } of kViewports) {
+  test(`an accessibility checker finds nothing in the search, ${name}`, async () => {
+    await set()
+    const found = []
+    for (const hash of [
+      '#/demo/search',
+      addressOf('gloss = "VANNES" | gloss = "METEO"'),
+      addressOf('like("villes"@1200..3010)', '&view=grid'),
+      addressOf('glos = "X"'),
+      addressOf('gloss = VANES'),
+    ]) {
+      await visit(hash, { size, still: true })
+      await page.waitForFunction(() => document.querySelector('#examples-title, [data-status=answered], .marked'))
+      if (/VANNES/.test(hash)) await page.locator('summary').click()
+      found.push(...(await axeFaults(page)).map((fault) => `${hash}: ${fault}`))
+      assert.ok(
+        await page.evaluate(() => document.scrollingElement.scrollWidth <= innerWidth && document.querySelector('main').scrollWidth <= innerWidth),
+        `${hash} is wider than the screen`,
+      )
+      if (hash === '#/demo/search') {
+        await field().fill('gloss = ')
+        await completions()
+        await page.keyboard.press('Escape')
+        await page.locator('.does button').last().click()
+        found.push(...(await axeFaults(page)).map((fault) => `language: ${fault}`))
       }
-      await page.evaluate(() => (localStorage.removeItem('signweave.theme'), localStorage.removeItem('signweave.language')))
-      assert.deepEqual(found, [])
-    })
-  }
+    }
+    await page.evaluate(() => (localStorage.removeItem('signweave.theme'), localStorage.removeItem('signweave.language')))
+    assert.deepEqual(found, [])
+  })
 }

@@ -3,7 +3,7 @@ import { choicesOf, fits, grouped, isRight, kNone, kSettings, fixOf, parametersO
 
 const setting = (name: string) => kSettings.find((one) => one.name === name)!
 
-it('tells what was corrected, and only what says something about the file', () => {
+it('sends what was corrected, and only what applies to the file', () => {
   const all: Corrections = { settings: { up: 'z', take: '2', unit: 'cm' } }
   const one: Corrections = { settings: { unit: '0,5', mirror: 'yes', offset_ms: '-12,5', sync: '0@10  100@1010' } }
   expect(parametersOf(all, one, 'a.bvh')).toEqual({ up: 'z', unit: '0.5', mirror: true, offset_ms: -12.5, sync: ['0@10', '100@1010'] })
@@ -11,7 +11,7 @@ it('tells what was corrected, and only what says something about the file', () =
   expect(parametersOf(all, one, null)).toEqual({ unit: '0.5', offset_ms: -12.5, sync: ['0@10', '100@1010'] })
 })
 
-it('knows which parameters say how motion is read', () => {
+it('knows which parameters determine how motion is read', () => {
   const all: Corrections = { settings: { up: 'z', unit: 'cm', root_order: 'rotation_first', mirror: 'yes', offset_ms: '10', replace_motion: 'yes' } }
   expect(readingOf(parametersOf(all, { settings: {}, signer: 'Zoé' }, 'a.bvh'))).toEqual({ up: 'z', unit: 'cm', root_order: 'rotation_first', mirror: true })
   expect(readingOf(parametersOf({ settings: { source_rate: '60', take: '2' } }, undefined, 'a.glb'))).toEqual({ source_rate: '60', take: '2' })
@@ -36,7 +36,7 @@ it('names tiers with their hands, and those with a colon in all three parts', ()
   expect(parametersOf(kNone, { settings: {}, tiers }, 'a.bvh')).toEqual({ sign_tier: ['Gloss', 'Gloss L:left', 'a:b:both:'], phase_tier: ['Phase'] })
 })
 
-it('says that there is no tier where somebody took all for something else, and where none is wanted for any recording', () => {
+it('declares that there is no tier if the user gave all another role, or wants none for any recording', () => {
   const tiers = [
     { tier: 'Gloss', role: 'signs', hand: 'both' },
     { tier: 'Phase', role: '', hand: 'both' },
@@ -47,11 +47,11 @@ it('says that there is no tier where somebody took all for something else, and w
   expect(parametersOf(kNone, { settings: {}, tiers }, 'a.bvh')).toEqual({ sign_tier: ['Gloss'], no_phase_tier: true })
   expect(parametersOf(kNone, { settings: {}, tiers: none }, 'a.bvh')).toEqual({ no_sign_tier: true, no_phase_tier: true })
   expect(parametersOf(all, undefined, 'a.bvh')).toEqual({ no_sign_tier: true, no_phase_tier: true })
-  // What is told of one recording goes before.
+  // The corrections of one recording take precedence.
   expect(parametersOf(all, { settings: {}, tiers }, 'a.bvh')).toEqual({ sign_tier: ['Gloss'], no_phase_tier: true })
 })
 
-it('makes one call for recordings that are told the same', () => {
+it('makes one call for recordings with the same parameters', () => {
   const rig = { left_hand: 'wrist_a' }
   const groups = grouped(
     [

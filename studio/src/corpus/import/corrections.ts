@@ -1,15 +1,16 @@
-import type { HandName, TierReport } from '../../api/corpus_answers'
-import type { Remedy } from '../../api/fault'
+import type { TierRow } from '../../api/schema'
+import type { HandName } from '../../api/types'
+import type { Remedy } from '../../api/schema'
 
-/** What an import can be told of how files are to be read, as `signweave import` calls it. */
+/** A parameter that determines how an import reads files, named as in `signweave import`. */
 export interface Setting {
   readonly name: SettingName
-  /** What can be chosen; else it is typed. */
+  /** The values to choose from; if missing, the value is typed. */
   readonly choices?: readonly string[]
   readonly flag?: boolean
-  /** Endings of the motion files that it says something about; else it is about all recordings. */
+  /** Extensions of the motion files that it applies to; if missing, it applies to all recordings. */
   readonly of?: readonly string[]
-  /** It is said for all recordings; of one its tiers tell it. */
+  /** It is set for all recordings together; for a single one, its tiers determine it. */
   readonly ofAll?: boolean
   /** What may be typed. */
   readonly pattern?: RegExp
@@ -50,24 +51,24 @@ export const kSettings: readonly Setting[] = [
   { name: 'no_phase_tier', flag: true, ofAll: true },
 ]
 
-/** What a tier is told to be. */
+/** The role assigned to a tier. */
 export interface TierRole {
   readonly tier: string
-  readonly role: TierReport['role']
+  readonly role: TierRow['role']
   readonly hand: HandName
 }
-/** What somebody corrected of one recording, or of all. A setting that is not there is as it is for all, and then as the file says. */
+/** The corrections a user made for one recording, or for all. A missing setting is taken from those for all, then from the file. */
 export interface Corrections {
   readonly settings: Readonly<Partial<Record<SettingName, string>>>
   readonly signer?: string
-  /** All tiers of the annotation; not there where the server's guess stands. */
+  /** All tiers of the annotation; missing if the server's guess applies. */
   readonly tiers?: readonly TierRole[]
-  /** The joint of a part; empty where the body has no such part. */
+  /** [part] its joint; empty if the body has no such part. */
   readonly rig?: Readonly<Record<string, string>>
 }
 export const kNone: Corrections = { settings: {} }
 
-/** A setting that is told, not empty. */
+/** The value of a setting: that of the recording if not empty, else that for all. */
 export function settingOf(all: Corrections, one: Corrections | undefined, name: SettingName): string {
   return one?.settings[name] || all.settings[name] || ''
 }
@@ -77,7 +78,7 @@ export const fits = ({ of }: Setting, motion: string | null) => !of || (motion !
 /** Whether a setting can be sent as it was typed. */
 export const isRight = ({ pattern }: Setting, value: string) => value === '' || !pattern || pattern.test(value.trim())
 
-/** The parameters of an import that the corrections of one recording make, but for `pairs`, `rig` and `recordings`. Wrong ones are left out. */
+/** The import parameters that follow from the corrections of one recording, except `pairs`, `rig` and `recordings`. Invalid ones are left out. */
 export function parametersOf(all: Corrections, one: Corrections | undefined, motion: string | null): Readonly<Record<string, unknown>> {
   const body: Record<string, unknown> = {}
   for (const setting of kSettings) {
@@ -88,7 +89,7 @@ export function parametersOf(all: Corrections, one: Corrections | undefined, mot
     else if (setting.name === 'sync') body.sync = plain.split(/\s+/)
     else body[setting.name] = /_ms$/.test(setting.name) ? Number(plain) : plain
   }
-  // Where nobody said what its tiers are they are guessed, unless there are none for any recording.
+  // If the user did not assign roles to its tiers, they are guessed, unless no recording has any.
   const tiers = one?.tiers
   const signs = tiers?.filter(({ role }) => role === 'signs') ?? [],
     phases = tiers?.filter(({ role }) => role === 'phases') ?? []
@@ -100,11 +101,11 @@ export function parametersOf(all: Corrections, one: Corrections | undefined, mot
 }
 
 const kReading: ReadonlySet<string> = new Set<SettingName>(['up', 'unit', 'mirror', 'root_unit', 'root_order', 'source_rate', 'take'])
-/** Of parameters of an import those that say how a motion file is to be read. */
+/** The import parameters that determine how a motion file is read. */
 export const readingOf = (parameters: Readonly<Record<string, unknown>>): Readonly<Record<string, unknown>> =>
   Object.fromEntries(Object.entries(parameters).filter(([name]) => kReading.has(name)))
 
-/** As `--sign-tier` takes it: a name that holds a colon is written with all three parts. */
+/** A tier in the syntax of `--sign-tier`: a name that contains a colon is written with all three parts. */
 function signTier({ tier, hand }: TierRole): string {
   if (tier.includes(':')) return `${tier}:${hand}:`
   return hand === 'both' ? tier : `${tier}:${hand}`
@@ -117,7 +118,7 @@ export function rigText(rig: Readonly<Record<string, string>>): string {
     .join('')
 }
 
-/** Reads a mapping file; lines that are none are left out. */
+/** Reads a mapping file; other lines are ignored. */
 export function readRig(text: string): Readonly<Record<string, string>> {
   const rig: Record<string, string> = {}
   for (const line of text.split(/\r?\n/)) {
@@ -139,14 +140,14 @@ export function choicesOf(remedies: readonly Remedy[] | undefined): readonly Set
   return kSettings.filter(({ name }) => remedies?.some(({ parameter, value }) => parameter === name && !value)).map(({ name }) => name)
 }
 
-/** What goes into one call: recordings that are told the same. */
+/** The recordings of one call, which have the same parameters. */
 export interface Group {
   readonly keys: readonly string[]
   readonly body: Readonly<Record<string, unknown>>
-  /** The mapping file's text; empty where there is none. */ readonly rig: string
+  /** The mapping file's text; empty if there is none. */ readonly rig: string
 }
 
-/** Puts recordings that are told the same into one call. */
+/** Puts recordings with the same parameters into one call. */
 export function grouped(
   recordings: readonly { readonly key: string; readonly motion: string | null; readonly one?: Corrections }[],
   all: Corrections,

@@ -1,5 +1,5 @@
 import { describe, expect, it } from 'vitest'
-import type { DatabaseRow } from '../../api/answers'
+import type { DatabaseRow } from '../../api/schema'
 import { dropTarget } from './drop_target'
 
 const row = (name: string, writable: boolean, placeholder = false): DatabaseRow => ({

@@ -1,4 +1,4 @@
-import type { DatabaseRow } from '../../api/answers'
+import type { DatabaseRow } from '../../api/schema'
 import { isPlaceholder } from '../../motion/declarations'
 
 /** Reasons why dropped files are rejected. */

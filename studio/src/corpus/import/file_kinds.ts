@@ -1,4 +1,4 @@
-import type { FormatRow } from '../../api/corpus_answers'
+import type { FileFormat } from '../../api/schema'
 
 /** The role of a file in an import. A companion is read together with another file; a table of pairs and a mapping file are read here, and not sent. */
 export type FileKind = 'motion' | 'skeleton' | 'annotation' | 'face' | 'companion' | 'pairs' | 'rig'
@@ -21,9 +21,9 @@ const kCompanions: Readonly<Record<string, string>> = { '.bin': '.gltf', '.xml':
 const kFilms = /\.(mp4|m4v|mov|avi|mpe?g|mkv|webm|wav|mp3)$/i
 
 /** Returns the longest extension that the server knows: `.face.csv` before `.csv`. A hidden file has none. */
-export function extensionOf(name: string, formats: readonly FormatRow[]): FormatRow | undefined {
+export function extensionOf(name: string, formats: readonly FileFormat[]): FileFormat | undefined {
   const lower = name.toLowerCase()
-  let best: FormatRow | undefined
+  let best: FileFormat | undefined
   for (const format of formats) {
     if (lower.length > format.extension.length && lower.endsWith(format.extension) && (!best || format.extension.length > best.extension.length)) best = format
   }
@@ -31,18 +31,18 @@ export function extensionOf(name: string, formats: readonly FormatRow[]): Format
 }
 
 /** Returns the name of the recording built from this file: the file name without the extension. */
-export function stemOf(name: string, formats: readonly FormatRow[]): string {
+export function stemOf(name: string, formats: readonly FileFormat[]): string {
   const format = extensionOf(name, formats)
   return format ? name.slice(0, -format.extension.length) : name.replace(/\.[^.]*$/, '')
 }
 
 /** Returns the extensions that can be imported, for a file dialog. */
-export function readableExtensions(formats: readonly FormatRow[]): readonly string[] {
+export function readableExtensions(formats: readonly FileFormat[]): readonly string[] {
   return formats.filter(({ reads }) => reads).map(({ extension }) => extension)
 }
 
 /** Returns the kind of a file, or why it cannot be sent. `names` are those of all files, because some are read together. */
-export function kindOf(name: string, formats: readonly FormatRow[], names: readonly string[]): FileKind | Refusal {
+export function kindOf(name: string, formats: readonly FileFormat[], names: readonly string[]): FileKind | Refusal {
   if (!isPlain(name)) return 'name'
   const format = extensionOf(name, formats)
   if (format?.reads) return kKinds[format.extension] ?? 'motion'

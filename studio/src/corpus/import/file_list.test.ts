@@ -1,9 +1,8 @@
 import { expect, it } from 'vitest'
-import type { FormatRow } from '../../api/corpus_answers'
+import { formatAnswer as row } from '../../api/test_answers'
 import { kindOf, readableExtensions, stemOf } from './file_kinds'
 import { added, bytesOf, kNoFiles, sendable, withFolderNames, without } from './file_list'
 
-const row = (extension: string, reads: boolean): FormatRow => ({ extension, name: extension, reads, writes: false, holds: '' })
 const kFormats = [row('.bvh', true), row('.gltf', true), row('.eaf', true), row('.anvil', true), row('.csv', false), row('.face.csv', true), row('.svg', false)]
 const picked = (path: string, text = 'x') => ({ file: new File([text], path.split('/').at(-1)!), folder: path.split('/').slice(0, -1).join('/') })
 const names = (list: { files: readonly { name: string }[] }) => list.files.map(({ name }) => name)

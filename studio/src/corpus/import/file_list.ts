@@ -1,4 +1,4 @@
-import type { FormatRow } from '../../api/corpus_answers'
+import type { FileFormat } from '../../api/schema'
 import { isRefusal, kindOf, stemOf, type FileKind, type Refusal } from './file_kinds'
 
 /** A chosen file, and its folders, separated by `/`. */
@@ -23,7 +23,7 @@ export interface FileList {
 export const kNoFiles: FileList = { files: [], next: 1, hidden: 0 }
 
 /** Adds files. A file chosen again from the same folder replaces the previous one; hidden files in folders are skipped. */
-export function added(list: FileList, more: readonly Picked[], formats: readonly FormatRow[]): FileList {
+export function added(list: FileList, more: readonly Picked[], formats: readonly FileFormat[]): FileList {
   const seen = more.filter(({ file, folder }) => !(folder && file.name.startsWith('.')))
   const again = (one: Picked) => seen.some(({ file, folder }) => folder === one.folder && file.name === one.file.name)
   let { next } = list
@@ -31,12 +31,12 @@ export function added(list: FileList, more: readonly Picked[], formats: readonly
   return classified({ files: [...list.files.filter((one) => !again(one)), ...fresh], next, hidden: list.hidden + more.length - seen.length }, formats)
 }
 
-export function without(list: FileList, ids: readonly number[], formats: readonly FormatRow[]): FileList {
+export function without(list: FileList, ids: readonly number[], formats: readonly FileFormat[]): FileList {
   return classified({ ...list, files: list.files.filter(({ id }) => !ids.includes(id)) }, formats)
 }
 
 /** Prefixes clashing file names with their folder's name, and also files with the same stem in the same folder, because they belong together. */
-export function withFolderNames(list: FileList, formats: readonly FormatRow[]): FileList {
+export function withFolderNames(list: FileList, formats: readonly FileFormat[]): FileList {
   const stems = new Set(list.files.filter(({ clash }) => clash).map(({ name }) => stemOf(name, formats)))
   const renamed = list.files.map((one) => {
     if (!one.folder || !stems.has(stemOf(one.name, formats)) || one.name !== one.file.name) return one
@@ -54,7 +54,7 @@ export const bytesOf = (files: readonly Listed[]) => files.reduce((sum, { file }
 type Unclassified = Omit<Listed, 'kind' | 'clash'>
 function classified(
   list: { readonly files: readonly Unclassified[]; readonly next: number; readonly hidden: number },
-  formats: readonly FormatRow[],
+  formats: readonly FileFormat[],
 ): FileList {
   const names = list.files.map(({ name }) => name)
   const counts = new Map<string, number>()

@@ -1,5 +1,6 @@
 import type { Api } from '../../api/client'
-import type { FilePart, FormatRow, Imported, ImportResult, Inspected, Inspection, Notice } from '../../api/corpus_answers'
+import type { FileFormat, ImportResult, ImportedReply, InspectResult, InspectedRecording, Notice } from '../../api/schema'
+import type { FilePart } from '../../api/types'
 import { formats, isWritable, previewUpload } from '../../api/corpus_calls'
 import type { OpenedMotion } from '../../motion/source'
 import { wholeMotion } from '../../motion/whole_motion'
@@ -19,7 +20,7 @@ const kSettle = 700
 
 /** One import, from choosing files to the outcome. It outlives the page, so that nothing is lost when the user looks at something else. */
 export class ImportSession {
-  formats = $state.raw<readonly FormatRow[]>([])
+  formats = $state.raw<readonly FileFormat[]>([])
   writable = $state<boolean | undefined>()
   list = $state.raw<FileList>(kNoFiles)
   readonly sender: Sender
@@ -29,7 +30,7 @@ export class ImportSession {
   retry?: () => void
   /** Files were added or removed while a job was running; the change was rejected. */
   turnedAway = $state(false)
-  reports = $state.raw<readonly Inspected[]>([])
+  reports = $state.raw<readonly InspectedRecording[]>([])
   notices = $state.raw<readonly Notice[]>([])
   faults = $state.raw<readonly string[]>([])
   /** The server's message for recordings whose corrections it rejected. */
@@ -43,7 +44,7 @@ export class ImportSession {
   own = $state.raw<ReadonlyMap<string, Corrections>>(new Map())
   /** Recordings that are not to be imported. */
   left = $state.raw<ReadonlySet<string>>(new Set())
-  outcomes = $state.raw<ReadonlyMap<string, Imported>>(new Map())
+  outcomes = $state.raw<ReadonlyMap<string, ImportedReply>>(new Map())
   onimported?: () => void
   /** Files added before the readable formats were known. */
   private early: readonly Picked[] = []
@@ -90,7 +91,7 @@ export class ImportSession {
     return this.list.files.filter(({ kind, clash }) => kind === part && !clash).map(({ name }) => name)
   }
   /** The recordings to import that are not stored yet, except those whose corrections are rejected. */
-  get wanted(): readonly Inspected[] {
+  get wanted(): readonly InspectedRecording[] {
     return this.reports.filter((one) => {
       const key = keyOf(one.files)
       return !one.error && !this.left.has(key) && !this.isStored(key) && (!this.refused.has(key) || this.stale.has(key))
@@ -105,7 +106,7 @@ export class ImportSession {
     const used = new Set(this.pairs?.flatMap(({ motion, annotation, face }) => [motion, annotation, face]))
     return this.pairs ? kParts.flatMap((part) => this.filesOf(part)).filter((name) => !used.has(name)) : []
   }
-  outcomeOf(one: Inspected): Imported | undefined {
+  outcomeOf(one: InspectedRecording): ImportedReply | undefined {
     return this.outcomes.get(keyOf(one.files))
   }
 
@@ -243,7 +244,7 @@ export class ImportSession {
       if (keys && now.length === 0) continue
       this.doing = { what: 'inspect', part: at / groups.length }
       try {
-        const inspection = await this.run<Inspection>(
+        const inspection = await this.run<InspectResult>(
           'inspect',
           { ...group, keys: now },
           (part) => (this.doing = { ...this.doing!, part: (at + part) / groups.length }),
@@ -349,7 +350,7 @@ export class ImportSession {
   }
 
   /** Replaces previous reports of the same recordings by new ones; returns the faults of corrections. */
-  private take(inspection: Inspection, keys?: readonly string[]): ReadonlyMap<string, unknown> {
+  private take(inspection: InspectResult, keys?: readonly string[]): ReadonlyMap<string, unknown> {
     const { reports: updated, errors } = withGood(inspection.recordings, this.reports, (key) => keys !== undefined && (this.own.has(key) || this.all !== kNone))
     const updatedKeys = new Set(updated.map(({ files }) => keyOf(files)))
     const here = this.pairs && new Set(this.pairs.map(keyOf))

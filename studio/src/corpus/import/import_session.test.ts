@@ -1,6 +1,7 @@
 import { afterEach, beforeEach, expect, it, vi } from 'vitest'
 import type { Api } from '../../api/client'
-import type { Imported, Inspected } from '../../api/corpus_answers'
+import type { InspectedRecording } from '../../api/schema'
+import { addedAnswer, inspectedAnswer } from '../../api/test_answers'
 import { ApiError, StudioFault } from '../../api/fault'
 import { kNone } from './corrections'
 import { ImportSession } from './import_session.svelte'
@@ -39,9 +40,10 @@ vi.mock('../../api/corpus_calls', () => ({
 let calls: Call[] = []
 const result = ({ job }: { job: string }) => new Promise((answer, refuse) => calls.push({ ...server.begun[Number(job)], answer, refuse } as Call))
 const api = { result } as unknown as Api
-const report = (name: string, more: object = {}): Inspected => ({ name, files: { motion: `${name}.bvh`, annotation: null, face: null }, known: false, ...more })
-const inspection = (recordings: readonly Inspected[]) => ({ recordings, notices: [], faults: [] })
-const stored = (names: readonly string[]) => ({ recordings: names.map((name): Imported => ({ name, outcome: 'added' })), notices: [], faults: [] })
+const report = (name: string, more: Partial<InspectedRecording> = {}) => inspectedAnswer({ name, ...more })
+const kMirrored = { up: 'y', unit: 0.01, root_unit: 0.01, mirrored: true, root_order: 'declared' } as const
+const inspection = (recordings: readonly InspectedRecording[]) => ({ recordings, notices: [], faults: [] })
+const stored = (names: readonly string[]) => ({ recordings: names.map(addedAnswer), notices: [], faults: [] })
 const corrected = (settings: object) => ({ ...kNone, settings })
 /** Returns the next call; its parameters are those at the time of the call. */
 async function next(): Promise<Call> {
@@ -84,7 +86,7 @@ it('inspects again what is corrected during an inspection, and imports nothing w
   second.answer(inspection([report('a')]))
   const third = await next()
   expect(third.body).toEqual({ mirror: true, recordings: ['b'] })
-  third.answer(inspection([report('b', { layout: { mirrored: true } })]))
+  third.answer(inspection([report('b', { layout: kMirrored })]))
   await vi.waitFor(() => expect(session.stale.size).toBe(0))
   expect(session.reports.find(({ name }) => name === 'b')!.layout!.mirrored).toBe(true)
 })

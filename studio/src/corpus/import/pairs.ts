@@ -1,4 +1,4 @@
-import type { FilePart } from '../../api/corpus_answers'
+import type { FilePart } from '../../api/types'
 
 /** The files of one recording, by the names under which they are sent. */
 export interface Pair {

@@ -1,4 +1,4 @@
-import type { Imported, Inspected } from '../../api/corpus_answers'
+import type { ImportedReply, InspectedRecording } from '../../api/schema'
 import { ApiError } from '../../api/fault'
 import { keyOf } from './pairs'
 import { isGone } from './sender.svelte'
@@ -14,18 +14,23 @@ export function isOfTheCall(fault: unknown): boolean {
 
 export const isCancelled = (fault: unknown) => fault instanceof ApiError && fault.code === 'cancelled'
 /** Returns the outcome of a recording whose call was refused. */
-export const failedBy = (fault: unknown, name: string): Imported => ({ name, outcome: 'failed', error: fault instanceof Error ? fault.message : String(fault) })
+export const failedBy = (fault: unknown, name: string): ImportedReply => ({
+  name,
+  outcome: 'failed',
+  error: fault instanceof Error ? fault.message : String(fault),
+  declarations: {},
+})
 
 /** Reports, and the server's faults by recording, for those it cannot read with their corrections. */
 export interface Taken {
-  readonly reports: readonly Inspected[]
+  readonly reports: readonly InspectedRecording[]
   readonly errors: ReadonlyMap<string, string>
 }
 /**
  * Returns the reports that replace the previous ones. A recording that was readable but fails with its corrections keeps its report, so that the correction can
  * be fixed.
  */
-export function withGood(fresh: readonly Inspected[], before: readonly Inspected[], isCorrected: (key: string) => boolean): Taken {
+export function withGood(fresh: readonly InspectedRecording[], before: readonly InspectedRecording[], isCorrected: (key: string) => boolean): Taken {
   const earlier = new Map(before.map((one) => [keyOf(one.files), one])),
     errors = new Map<string, string>()
   const reports = fresh.map((one) => {
@@ -34,7 +39,7 @@ export function withGood(fresh: readonly Inspected[], before: readonly Inspected
     if (!one.error || !good) return one
     if (!good.error && isCorrected(key) && JSON.stringify(good.files) === JSON.stringify(one.files)) {
       errors.set(key, one.error)
-      return { ...good, known: one.known, plan: undefined }
+      return { ...good, known: one.known, plan: one.plan }
     }
     // Its body is that of the same motion, whatever else belongs to it now.
     return one.files.motion ? { ...one, rig: good.rig, joints: good.joints } : one

@@ -1,6 +1,6 @@
 import type { AnnotationDocument } from '../../annotation/document'
 import { readEaf } from '../../annotation/eaf'
-import type { StoredRecording } from '../../api/corpus_answers'
+import type { Recording } from '../../api/schema'
 import type { Api } from '../../api/client'
 import { proposals, storedRecording } from '../../api/corpus_calls'
 import { isChecked, readChecked, rewritten, standOf, type Stand } from './checked_tiers'
@@ -26,7 +26,7 @@ export class PhasesSession {
   current = $state<number | undefined>()
   /** The annotation without the tiers under review. */
   document = $state.raw<AnnotationDocument>(kNoTiers)
-  info = $state.raw<StoredRecording | undefined>()
+  info = $state.raw<Recording | undefined>()
   /** Whether the review is stored in this browser; false if it has no room. */
   kept = $state(true)
   /** Whether there are changes that are not stored. */
@@ -254,4 +254,4 @@ export class PhasesSession {
   }
 }
 
-const framesOf = ({ clock_origin_ms: originMs = 0, frames_per_second: rate = 0, frames: count = 0 }: StoredRecording): Frames => ({ originMs, rate, count })
+const framesOf = ({ clock_origin_ms: originMs = 0, frames_per_second: rate = 0, frames: count = 0 }: Recording): Frames => ({ originMs, rate, count })

@@ -1,4 +1,4 @@
-import type { Proposals } from '../../api/corpus_answers'
+import type { Proposals } from '../../api/schema'
 
 export type Hand = 'right' | 'left'
 export const kHands: readonly Hand[] = ['right', 'left']

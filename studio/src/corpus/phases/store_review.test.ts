@@ -1,10 +1,12 @@
 import { expect, it, vi } from 'vitest'
 import type { Api } from '../../api/client'
 import * as calls from '../../api/corpus_calls'
-import type { HandName, Inspected, TierReport } from '../../api/corpus_answers'
+import type { InspectedRecording, TierRow } from '../../api/schema'
+import { inspectedAnswer } from '../../api/test_answers'
+import type { HandName } from '../../api/types'
 import { choicesOf, filesFor, isDefault, sendReview } from './store_review'
 
-const tier = (name: string, role: TierReport['role'], hand: HandName = 'both'): TierReport => ({
+const tier = (name: string, role: TierRow['role'], hand: HandName = 'both'): TierRow => ({
   tier: name,
   parent: null,
   annotations: 1,
@@ -12,12 +14,12 @@ const tier = (name: string, role: TierReport['role'], hand: HandName = 'both'): 
   role,
   hand,
 })
-const report = (...tiers: TierReport[]): Inspected => ({ name: 'a', files: { motion: null, annotation: 'a.eaf', face: null }, known: true, tiers })
+const report = (...tiers: TierRow[]) => inspectedAnswer({ name: 'a', files: { motion: null, annotation: 'a.eaf', face: null }, known: true, tiers })
 const kWritten = [
   { hand: 'right' as const, name: 'RH', count: 3, unseen: 0 },
   { hand: 'left' as const, name: 'LH', count: 5, unseen: 0 },
 ]
-const kinds = (one: Inspected) => choicesOf(one, kWritten).map(({ kind }) => kind)
+const kinds = (one: InspectedRecording) => choicesOf(one, kWritten).map(({ kind }) => kind)
 
 it("keeps the source of the signs' phases if it is another tier", () => {
   const one = report(tier('Gloss', 'signs'), tier('Phase', 'phases'), tier('RH', 'phases'))

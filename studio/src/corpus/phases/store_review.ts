@@ -1,5 +1,4 @@
-import type { JobBegun } from '../../api/answers'
-import type { Imported, ImportResult, Inspected, Inspection } from '../../api/corpus_answers'
+import type { ImportResult, ImportedReply, InspectResult, InspectedRecording, JobBegun } from '../../api/schema'
 import type { Api } from '../../api/client'
 import { beginUpload, cancelJob, discardUpload, openUpload, sendFile } from '../../api/corpus_calls'
 import { isPlain } from '../import/file_kinds'
@@ -18,7 +17,7 @@ export interface PhaseChoice {
  * Returns the choices, best first; empty if there are no signs. Tiers in use other than the checked ones come first; otherwise the hand with more phases,
  * because with both hands a two-handed sign would have overlapping phases of both. Signs with a tier for each hand take both.
  */
-export function choicesOf(report: Inspected, written: Written['tiers']): readonly PhaseChoice[] {
+export function choicesOf(report: InspectedRecording, written: Written['tiers']): readonly PhaseChoice[] {
   const signs = report.tiers?.filter(({ role }) => role === 'signs') ?? []
   if (signs.length === 0) return []
   const ours = written.map(({ name }) => name)
@@ -33,7 +32,7 @@ export function choicesOf(report: Inspected, written: Written['tiers']): readonl
 }
 
 /** Whether a choice is what the server does by default. */
-export function isDefault(report: Inspected, { tiers }: PhaseChoice): boolean {
+export function isDefault(report: InspectedRecording, { tiers }: PhaseChoice): boolean {
   const taken = report.tiers?.filter(({ role }) => role === 'phases').map(({ tier }) => tier) ?? []
   return taken.length === tiers.length && tiers.every((tier) => taken.includes(tier))
 }
@@ -42,7 +41,7 @@ export function isDefault(report: Inspected, { tiers }: PhaseChoice): boolean {
 export interface Sent {
   readonly upload: string
   readonly body: object
-  readonly report: Inspected | undefined
+  readonly report: InspectedRecording | undefined
 }
 
 /** Returns the name under which a recording's document is sent, and a table that names the recording if the file name does not. */
@@ -64,7 +63,7 @@ export async function sendReview(api: Api, database: string, recording: string, 
     await sendFile(api, database, upload, file, annotation, () => {}, signal)
     if (table) await sendFile(api, database, upload, kTable, new Blob([table]), () => {}, signal)
     job = await beginUpload(api, database, upload, 'inspect', body)
-    const { recordings } = await api.result<Inspection>(job, () => {}, signal)
+    const { recordings } = await api.result<InspectResult>(job, () => {}, signal)
     return { upload, body, report: recordings[0] }
   } catch (fault) {
     // A server holds only a few uploads; one under inspection cannot be discarded before that ends.
@@ -83,7 +82,7 @@ export async function storeSent(
   { upload, body: about, report }: Sent,
   choice: PhaseChoice | undefined,
   over: string,
-): Promise<Imported> {
+): Promise<ImportedReply> {
   const body = { ...about, if_annotation: over, ...(choice && report && !isDefault(report, choice) ? { phase_tier: choice.tiers } : {}) }
   const { recordings } = await api.result<ImportResult>(await beginUpload(api, database, upload, 'import', body))
   return recordings[0]

@@ -1,15 +1,9 @@
 import { expect, it } from 'vitest'
-import type { StoredRow } from '../../api/corpus_answers'
+import { recordingRow } from '../../api/test_answers'
 import { rowsOf, signersOf, type ListOptions } from './list'
 
-const row = (name: string, signer: string, frames?: number): StoredRow => ({
-  name,
-  signer,
-  defects: 0,
-  motion_file: '',
-  annotation_file: '',
-  ...(frames === undefined ? {} : { frames, frames_per_second: 100, joints: 1, tracks: [] }),
-})
+const row = (name: string, signer: string, frames?: number) =>
+  recordingRow(name, signer, frames === undefined ? {} : { frames, frames_per_second: 100, joints: 1, tracks: [] })
 const kRows = [row('day 10', 'Zoé', 300), row('day 2', 'Ada', 300), row('words', 'Ada'), row('Day 1', 'Zoé', 900)]
 const names = (options: Partial<ListOptions>) => rowsOf(kRows, { text: '', sort: 'name', descending: false, ...options }).map(({ name }) => name)
 

@@ -1,4 +1,4 @@
-import type { StoredRow } from '../../api/corpus_answers'
+import type { RecordingRow } from '../../api/schema'
 
 export type SortBy = 'name' | 'signer' | 'seconds' | 'frames' | 'rate' | 'tracks' | 'defects' | 'storage'
 export interface ListOptions {
@@ -8,9 +8,9 @@ export interface ListOptions {
   readonly descending: boolean
 }
 
-export const secondsOf = ({ frames, frames_per_second: rate }: StoredRow): number | undefined => (frames !== undefined && rate ? frames / rate : undefined)
+export const secondsOf = ({ frames, frames_per_second: rate }: RecordingRow): number | undefined => (frames !== undefined && rate ? frames / rate : undefined)
 
-const kValues: Readonly<Record<SortBy, (row: StoredRow) => string | number | undefined>> = {
+const kValues: Readonly<Record<SortBy, (row: RecordingRow) => string | number | undefined>> = {
   name: ({ name }) => name,
   signer: ({ signer }) => signer,
   seconds: secondsOf,
@@ -23,7 +23,7 @@ const kValues: Readonly<Record<SortBy, (row: StoredRow) => string | number | und
 const collator = new Intl.Collator(undefined, { numeric: true })
 
 /** Returns the matching rows in the requested order; rows without a value come last, and equal rows are ordered by name. */
-export function rowsOf(rows: readonly StoredRow[], { text, signer, sort, descending }: ListOptions): readonly StoredRow[] {
+export function rowsOf(rows: readonly RecordingRow[], { text, signer, sort, descending }: ListOptions): readonly RecordingRow[] {
   const wanted = text.trim().toLowerCase(),
     value = kValues[sort],
     sign = descending ? -1 : 1
@@ -38,4 +38,4 @@ export function rowsOf(rows: readonly StoredRow[], { text, signer, sort, descend
 }
 
 /** Returns the signers, in alphabetical order. */
-export const signersOf = (rows: readonly StoredRow[]): readonly string[] => [...new Set(rows.map(({ signer }) => signer))].sort(collator.compare)
+export const signersOf = (rows: readonly RecordingRow[]): readonly string[] => [...new Set(rows.map(({ signer }) => signer))].sort(collator.compare)

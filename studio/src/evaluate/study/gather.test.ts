@@ -1,6 +1,6 @@
 // @vitest-environment jsdom
 import { expect, it } from 'vitest'
-import type { RecordingRow } from '../../api/answers'
+import type { RecordingRow } from '../../api/schema'
 import type { Api } from '../../api/client'
 import { ApiError, StudioFault } from '../../api/fault'
 import { gatherSources } from './gather'

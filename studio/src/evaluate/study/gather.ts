@@ -1,18 +1,14 @@
 import { readEaf } from '../../annotation/eaf'
-import type { RecordingInfo } from '../../api/answers'
+import type { Recording } from '../../api/schema'
 import type { Api } from '../../api/client'
 import { ApiError } from '../../api/fault'
+import { hasMotion } from '../../api/types'
 import { gapsOf, shownOf, usable, type Gap } from './gaps'
 import { Random } from './random'
 import type { Source } from './study'
 
 /** The maximum number of recordings examined: out of more, this many are chosen at random. */
 export const kMostRecordings = 200
-
-/** Defective frames, as reported by the server for a recording. */
-interface Broken {
-  readonly defects?: readonly { readonly first_frame?: number; readonly end_frame?: number }[]
-}
 
 /** Returns the recordings of a database from which a study with this seed takes its gaps. */
 export function sampled(recordings: readonly string[], seed: number): readonly string[] {
@@ -39,7 +35,7 @@ export async function gatherSources(
   for (const [done, recording] of recordings.entries()) {
     if (signal.aborted) throw signal.reason
     onprogress(done)
-    let info: RecordingInfo & Broken, eaf: string
+    let info: Recording, eaf: string
     try {
       ;[info, eaf] = await Promise.all([api.recording(database, recording), api.annotation(database, recording)])
     } catch (fault) {
@@ -49,6 +45,7 @@ export async function gatherSources(
     }
     const gaps = gapsIn(eaf)
     if (!gaps) leftOut.push(recording)
+    if (!hasMotion(info)) continue
     const ms = 1000 / info.frames_per_second,
       at = (frame: number) => info.clock_origin_ms + frame * ms
     const captured = { begin: at(0), end: at(info.frames - 1) }

@@ -1,4 +1,4 @@
-import type { RecordingRow } from '../../api/answers'
+import type { RecordingRow } from '../../api/schema'
 import type { Item, Study } from './study'
 
 /** A fingerprint by which a recording is recognised later or on another computer. */

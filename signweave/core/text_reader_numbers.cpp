@@ -1,5 +1,6 @@
 // The fast path of TextReader: runs of plain numbers, which motion files contain by the million. Anything that is not
-// plain is left to TextReader::number, which handles every oddity and has all messages.
+// plain is left to TextReader::number, which handles every oddity and has all messages. Faster than fast_float over
+// real files: decision 232.
 
 #include <array>
 #include <bit>
@@ -31,6 +32,17 @@ constexpr std::array<double, 23> kPowers = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  
 constexpr std::array<std::uint64_t, 9> kWholePowers = {1,       10,        100,        1'000,      10'000,
                                                        100'000, 1'000'000, 10'000'000, 100'000'000};
 
+/// Loads the bytes at `text`, the first into the lowest eight bits.
+std::uint64_t eight_bytes(const char* text) noexcept {
+  std::uint64_t bytes = 0;
+  if constexpr (std::endian::native == std::endian::little) {
+    std::memcpy(&bytes, text, sizeof bytes);
+  } else {
+    for (std::size_t i = 8; i-- > 0;) bytes = bytes << 8 | static_cast<unsigned char>(text[i]);
+  }
+  return bytes;
+}
+
 /// Bit i is set if character i of the sixteen at `text` is not a digit; the bits above are set, too.
 std::uint32_t not_digits(const char* text) noexcept {
 #if defined(__SSE2__)
@@ -41,23 +53,14 @@ std::uint32_t not_digits(const char* text) noexcept {
   const __m128i others = _mm_cmpgt_epi8(moved, _mm_set1_epi8(static_cast<char>(-128 + 9)));
   return static_cast<std::uint32_t>(_mm_movemask_epi8(others)) | 0xFFFF0000u;
 #else
-  std::uint32_t bits = 0xFFFF0000u;
-  for (std::size_t i = 0; i < kInspected; ++i) {
-    bits |= static_cast<std::uint32_t>(static_cast<unsigned char>(text[i] - '0') > 9) << i;
-  }
-  return bits;
+  const auto bits_of = [](std::uint64_t bytes) {
+    // '0' to '9' become 0 to 9. The sum has a byte's highest bit if its lower seven exceed 9, and carries nothing over.
+    const std::uint64_t moved = bytes ^ 0x3030303030303030u;
+    const std::uint64_t others = (((moved & 0x7F7F7F7F7F7F7F7Fu) + 0x7676767676767676u) | moved) & 0x8080808080808080u;
+    return static_cast<std::uint32_t>(((others >> 7) * 0x0102040810204080u) >> 56);  // byte i gives bit i
+  };
+  return bits_of(eight_bytes(text)) | bits_of(eight_bytes(text + 8)) << 8 | 0xFFFF0000u;
 #endif
-}
-
-/// Loads the bytes at `text`, the first into the lowest eight bits.
-std::uint64_t eight_bytes(const char* text) noexcept {
-  std::uint64_t bytes = 0;
-  if constexpr (std::endian::native == std::endian::little) {
-    std::memcpy(&bytes, text, sizeof bytes);
-  } else {
-    for (std::size_t i = 8; i-- > 0;) bytes = bytes << 8 | static_cast<unsigned char>(text[i]);
-  }
-  return bytes;
 }
 
 /// The number spelled by the first `count` (at most 8) of eight bytes, all digits: combines pairs, then fours, then all

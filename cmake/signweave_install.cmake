@@ -32,6 +32,8 @@ while(to_read)
     list(APPEND to_read ${included})
   endforeach()
 endwhile()
+list(JOIN public_headers "\n" lines)
+file(WRITE ${PROJECT_BINARY_DIR}/public_headers.txt "${lines}\n")  # for scripts/alone
 foreach(header IN LISTS public_headers)
   get_filename_component(folder ${header} DIRECTORY)
   install(FILES ${PROJECT_SOURCE_DIR}/${header} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/${folder} COMPONENT development)

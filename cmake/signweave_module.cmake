@@ -1,8 +1,9 @@
-# signweave_module(NAME SOURCES a.cpp … DEPENDS core … [LIBRARIES Eigen3::Eigen …])
+# signweave_module(NAME DEPENDS core … [LIBRARIES Eigen3::Eigen …] [WITHOUT a.cpp …] [GENERATED b.cpp …])
 #
-# Defines one module of the library from the folder it is called in. The sources are its table of contents; its tests are
-# found by name (*_test.cpp), never listed. DEPENDS names the modules whose headers it may include; the test `layers`
-# enforces this. LIBRARIES are third-party targets. TEST_SOURCES are compiled into the test program along with the tests.
+# Defines one module of the library from the .cpp files of the folder it is called in and of the folders below; its tests
+# are the *_test.cpp, and test_*.cpp are shared by tests. DEPENDS names the modules whose headers it may include; the test
+# `layers` enforces this. LIBRARIES are third-party targets. WITHOUT names files that this build does not compile, GENERATED
+# files that it writes. TEST_SOURCES are compiled into the test program along with the tests.
 define_property(GLOBAL PROPERTY SIGNWEAVE_LAYERS BRIEF_DOCS "rows 'module:dependency,dependency'")
 define_property(GLOBAL PROPERTY SIGNWEAVE_MODULES BRIEF_DOCS "library targets, lowest first")
 
@@ -40,25 +41,35 @@ function(signweave_batches target)
   endif()
 endfunction()
 
+# signweave_sources(VARIABLE [WITHOUT a.cpp …]): the .cpp files of the folder it is called in and of the folders below but
+# those of tests (*_test.cpp, test_*.cpp) and those named.
+function(signweave_sources variable)
+  cmake_parse_arguments(arg "" "" "WITHOUT" ${ARGN})
+  file(GLOB_RECURSE sources CONFIGURE_DEPENDS RELATIVE ${CMAKE_CURRENT_SOURCE_DIR} ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
+  list(FILTER sources EXCLUDE REGEX "_test\\.cpp$|(^|/)test_[^/]*\\.cpp$")
+  if(arg_WITHOUT)
+    list(REMOVE_ITEM sources ${arg_WITHOUT})
+  endif()
+  set(${variable} ${sources} PARENT_SCOPE)
+endfunction()
+
 function(signweave_module name)
-  cmake_parse_arguments(arg "" "" "SOURCES;DEPENDS;LIBRARIES;TEST_SOURCES" ${ARGN})
+  cmake_parse_arguments(arg "" "" "DEPENDS;LIBRARIES;TEST_SOURCES;WITHOUT;GENERATED" ${ARGN})
+  if(arg_UNPARSED_ARGUMENTS)
+    message(FATAL_ERROR "signweave_module(${name}): unknown words ${arg_UNPARSED_ARGUMENTS}")
+  endif()
   set(target signweave_${name})
   list(TRANSFORM arg_DEPENDS PREPEND signweave:: OUTPUT_VARIABLE depends)
-  if(arg_SOURCES)
-    add_library(${target} STATIC ${arg_SOURCES})
-    set(scope PUBLIC)
-    target_link_libraries(${target} PRIVATE $<BUILD_INTERFACE:signweave_flags>)
-    target_precompile_headers(${target} REUSE_FROM signweave_pch)
-    signweave_batches(${target})
-  else()
-    add_library(${target} INTERFACE)
-    set(scope INTERFACE)
-  endif()
+  signweave_sources(sources WITHOUT ${arg_WITHOUT})
+  add_library(${target} STATIC ${sources} ${arg_GENERATED})
+  target_link_libraries(${target} PRIVATE $<BUILD_INTERFACE:signweave_flags>)
+  target_precompile_headers(${target} REUSE_FROM signweave_pch)
+  signweave_batches(${target})
   add_library(signweave::${name} ALIAS ${target})
   set_target_properties(${target} PROPERTIES EXPORT_NAME ${name})
-  target_include_directories(${target} ${scope} $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>
+  target_include_directories(${target} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>
                              $<INSTALL_INTERFACE:include>)
-  target_link_libraries(${target} ${scope} ${depends} ${arg_LIBRARIES})
+  target_link_libraries(${target} PUBLIC ${depends} ${arg_LIBRARIES})
   string(REPLACE ";" "," row "${arg_DEPENDS}")
   set_property(GLOBAL APPEND PROPERTY SIGNWEAVE_LAYERS "${name}:${row}")
   set_property(GLOBAL APPEND PROPERTY SIGNWEAVE_MODULES ${target})
@@ -91,6 +102,20 @@ function(signweave_tests name)
   endforeach()
   if(SIGNWEAVE_TESTED AND NOT name IN_LIST SIGNWEAVE_TESTED)
     return()
+  endif()
+  if(SIGNWEAVE_TESTS_NAMED)  # in builds that run only those tests, each other file would be compiled for nothing
+    set(named "")
+    foreach(test IN LISTS tests)
+      set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${test})
+      file(STRINGS ${test} found LIMIT_COUNT 1 REGEX "^ *(TEST|TEST_F|TEST_P|TYPED_TEST|RC_GTEST_PROP|RC_GTEST_FIXTURE_PROP|INSTANTIATE_TEST_SUITE_P)\\(.*(${SIGNWEAVE_TESTS_NAMED})")
+      if(found)
+        list(APPEND named ${test})
+      endif()
+    endforeach()
+    set(tests ${named})
+    if(NOT tests)
+      return()
+    endif()
   endif()
   if(NOT arg_LABEL)
     set(arg_LABEL quick)

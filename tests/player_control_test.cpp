@@ -17,7 +17,7 @@ TEST(Player, NothingJumpsWhateverTheUserDoes) {
       greatest_step(shown_whole("DEMAIN MATIN VANNES PLUIE RENNES NUAGES SOLEIL-BRILLER", {}).motion);
   std::mt19937 random(11);
   for (int round = 0; round < 40; ++round) {
-    Player player(base(), {.synthesis = {}, .idle = random() % 3 == 0 ? Idle::end : Idle::living_rest});
+    Player player(shared_cache(), {.synthesis = {}, .idle = random() % 3 == 0 ? Idle::end : Idle::living_rest});
     Shown shown;
     std::string story;
     for (int step = 0; step < 30; ++step) {
@@ -54,7 +54,7 @@ TEST(Player, NothingJumpsWhateverTheUserDoes) {
 }
 
 TEST(Player, RestsAndBreathes) {
-  Player player(base(), {.recording = "meteo"});
+  Player player(shared_cache(), {.recording = "meteo"});
   ASSERT_NE(player.header(), nullptr);
   Shown shown;
   show(player, shown, 1000);
@@ -71,7 +71,7 @@ TEST(Player, RestsAndBreathes) {
 }
 
 TEST(Player, PausesAndResumes) {
-  Player player(base(), {});
+  Player player(shared_cache(), {});
   player.sign(parse_utterance("DEMAIN MATIN"));
   Shown shown;
   show(player, shown, 20);
@@ -88,7 +88,7 @@ TEST(Player, PausesAndResumes) {
 
 TEST(Player, SeeksToWhatItShowedThere) {
   const std::string tokens = "DEMAIN#1 MATIN#1 VANNES#1 PLUIE#2 RENNES#1";
-  Player player(base(), {.idle = Idle::end});
+  Player player(shared_cache(), {.idle = Idle::end});
   player.sign(parse_utterance(tokens));
   Shown whole;
   show(player, whole);
@@ -111,7 +111,7 @@ TEST(Player, SeeksToWhatItShowedThere) {
 }
 
 TEST(Player, SeeksWhileItSigns) {
-  Player player(base(), {});
+  Player player(shared_cache(), {});
   player.sign(parse_utterance("DEMAIN MATIN VANNES PLUIE RENNES NUAGES"));
   Shown shown;
   show(player, shown, 300);
@@ -128,7 +128,7 @@ TEST(Player, TempoIsChangedAtOnce) {
   const std::string tokens = "DEMAIN#1 MATIN#1 VANNES#1";
   const Shown plain = shown_whole(tokens, {});
   for (const double tempo : {0.25, 0.5, 0.8, 1.3, 2.0}) {
-    Player player(base(), {.idle = Idle::end});
+    Player player(shared_cache(), {.idle = Idle::end});
     player.sign(parse_utterance(tokens));
     player.set_tempo(tempo);
     Shown shown;
@@ -142,7 +142,7 @@ TEST(Player, TempoIsChangedAtOnce) {
     EXPECT_LT(turn, 2.2f * greatest_step(plain.motion).first) << at;
     EXPECT_LT(displacement, 2.2f * greatest_step(plain.motion).second + 0.001f);
   }
-  Player player(base(), {});
+  Player player(shared_cache(), {});
   EXPECT_THROW(player.set_tempo(0.2), Error);
   EXPECT_THROW(player.set_tempo(2.5), Error);
   EXPECT_THROW(player.set_tempo(std::nan("")), Error);
@@ -151,7 +151,7 @@ TEST(Player, TempoIsChangedAtOnce) {
 TEST(Player, ATempoThatIsOneAgainShowsFramesAsTheyAre) {
   const std::string tokens = "DEMAIN#1 MATIN#1 VANNES#1";
   const Shown plain = shown_whole(tokens, {});
-  Player player(base(), {.idle = Idle::end});
+  Player player(shared_cache(), {.idle = Idle::end});
   player.sign(parse_utterance(tokens));
   Shown shown;
   show(player, shown, 20);
@@ -172,7 +172,7 @@ TEST(Player, ATempoThatIsOneAgainShowsFramesAsTheyAre) {
 }
 
 TEST(Player, LoopsWithoutASeam) {
-  Player player(base(), {.idle = Idle::end, .loop = true});
+  Player player(shared_cache(), {.idle = Idle::end, .loop = true});
   player.sign(parse_utterance("DEMAIN MATIN"));
   Shown shown;
   show(player, shown, 3000);
@@ -186,7 +186,7 @@ TEST(Player, LoopsWithoutASeam) {
 }
 
 TEST(Player, AnUnknownGlossChangesNothing) {
-  Player player(base(), {.idle = Idle::end});
+  Player player(shared_cache(), {.idle = Idle::end});
   player.sign(parse_utterance("DEMAIN#1 MATIN#1"));
   Shown shown;
   show(player, shown, 30);
@@ -197,7 +197,7 @@ TEST(Player, AnUnknownGlossChangesNothing) {
 }
 
 TEST(Player, ContinuesForLongWithoutStoringEverything) {
-  Player player(base(), {.synthesis = {.rate = FrameRate{10, 1}}, .idle = Idle::end});
+  Player player(shared_cache(), {.synthesis = {.rate = FrameRate{10, 1}}, .idle = Idle::end});
   const std::vector<std::string> glosses = corpus().contents()->segments.glosses();
   std::size_t place = 0;
   std::vector<float> tracks;
@@ -228,7 +228,7 @@ TEST(Player, ContinuesForLongWithoutStoringEverything) {
 
 TEST(Player, ContinuesAfterAnEndPassedAtAnyTempo) {
   for (const double tempo : {0.25, 0.4, 0.5, 0.7, 1.0, 1.3, 1.7, 2.0}) {
-    Player player(base(), {.idle = Idle::end});
+    Player player(shared_cache(), {.idle = Idle::end});
     player.sign(parse_utterance("DEMAIN"));
     player.prepare(1);
     player.set_tempo(tempo);
@@ -247,7 +247,7 @@ TEST(Player, ContinuesAfterAnEndPassedAtAnyTempo) {
 
 TEST(Player, ASeekWithoutAnUtteranceChangesNothing) {
   for (const Idle idle : {Idle::end, Idle::living_rest}) {
-    Player player(base(), {.idle = idle});
+    Player player(shared_cache(), {.idle = idle});
     player.sign(parse_utterance("DEMAIN MATIN"));
     Shown shown;
     show(player, shown, 90);
@@ -266,7 +266,7 @@ TEST(Player, StoppingTwiceIsStoppingOnce) {
   for (std::size_t at = 5; at < 500; at += 23) {
     std::vector<std::int64_t> frames;
     for (const std::size_t second : {0u, 1u, 5u}) {
-      Player player(base(), {.idle = Idle::end});
+      Player player(shared_cache(), {.idle = Idle::end});
       player.sign(parse_utterance(text));
       Shown shown;
       show(player, shown, at);
@@ -283,7 +283,7 @@ TEST(Player, StoppingTwiceIsStoppingOnce) {
 }
 
 TEST(Player, ASignThatEndsSoonIsFinished) {
-  Player player(base(), {.idle = Idle::end});
+  Player player(shared_cache(), {.idle = Idle::end});
   player.sign(parse_utterance("DEMAIN#1 MATIN#1"));
   Shown shown;
   show(player, shown, 2, 2);
@@ -297,7 +297,7 @@ TEST(Player, ASignThatEndsSoonIsFinished) {
 }
 
 TEST(Player, ALoopMayBeginAfterTheEnd) {
-  Player player(base(), {.idle = Idle::end});
+  Player player(shared_cache(), {.idle = Idle::end});
   player.sign(parse_utterance("DEMAIN MATIN"));
   Shown shown;
   show(player, shown);
@@ -308,7 +308,7 @@ TEST(Player, ALoopMayBeginAfterTheEnd) {
 }
 
 TEST(Player, SeeksWithinARoundOfALoop) {
-  Player player(base(), {.loop = true});
+  Player player(shared_cache(), {.loop = true});
   player.sign(parse_utterance("DEMAIN MATIN NUAGES"));
   Shown shown;
   show(player, shown, 2);
@@ -329,9 +329,9 @@ TEST(Player, SurvivesAnything) {
   const std::vector<std::string> glosses = corpus().contents()->segments.glosses();
   std::mt19937 random(23);
   for (int round = 0; round < 60; ++round) {
-    Player player(base(), {.synthesis = {.rate = FrameRate{random() % 2 == 0 ? 60 : 100, 1}},
-                           .idle = random() % 2 == 0 ? Idle::end : Idle::living_rest,
-                           .loop = random() % 4 == 0});
+    Player player(shared_cache(), {.synthesis = {.rate = FrameRate{random() % 2 == 0 ? 60 : 100, 1}},
+                                   .idle = random() % 2 == 0 ? Idle::end : Idle::living_rest,
+                                   .loop = random() % 4 == 0});
     Shown shown;
     for (int step = 0; step < 40; ++step) {
       const std::string gloss = to_string(GlossRef{glosses[random() % glosses.size()], 0});
@@ -373,7 +373,7 @@ TEST(Player, SurvivesAnything) {
 }
 
 TEST(Player, StopsSoon) {
-  Player player(base(), {});
+  Player player(shared_cache(), {});
   player.sign(parse_utterance("DEMAIN MATIN VANNES PLUIE RENNES NUAGES"));
   Shown shown;
   show(player, shown, 130);
@@ -386,11 +386,11 @@ TEST(Player, StopsSoon) {
 }
 
 TEST(Player, RefusesInvalidRequests) {
-  EXPECT_THROW(Player(base(), {.look_ahead = 0}), Error);
-  EXPECT_THROW(Player(base(), {.look_ahead = 17}), Error);
-  EXPECT_THROW(Player(base(), {.recording = "no such"}), Error);
-  EXPECT_THROW(Player(base(), {.synthesis = {.tempo = 9}}), Error);
-  Player player(base(), {});
+  EXPECT_THROW(Player(shared_cache(), {.look_ahead = 0}), Error);
+  EXPECT_THROW(Player(shared_cache(), {.look_ahead = 17}), Error);
+  EXPECT_THROW(Player(shared_cache(), {.recording = "no such"}), Error);
+  EXPECT_THROW(Player(shared_cache(), {.synthesis = {.tempo = 9}}), Error);
+  Player player(shared_cache(), {});
   player.append(parse_utterance("DEMAIN"));
   Place late = parse_utterance("MATIN").places.front();
   late.pause_before = Milliseconds(60'001);

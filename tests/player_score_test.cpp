@@ -14,7 +14,7 @@ namespace {
 /// A player at tempo 1, whose frames are all stored and compared with what its score renders.
 class ComparedPlayer {
  public:
-  explicit ComparedPlayer(const PlayerOptions& options) : player_(base(), options) {}
+  explicit ComparedPlayer(const PlayerOptions& options) : player_(shared_cache(), options) {}
 
   Player& player() noexcept { return player_; }
   std::size_t compared() const noexcept { return compared_; }

@@ -25,7 +25,7 @@ inline const Database& corpus() {
   return *database;
 }
 
-inline SharedSigningCache& base() {
+inline SharedSigningCache& shared_cache() {
   static SharedSigningCache shared(corpus());
   return shared;
 }
@@ -73,7 +73,7 @@ inline void show(Player& player, Shown& shown, std::size_t most = 100'000, std::
 
 inline Shown shown_whole(const std::string& utterance, PlayerOptions options) {
   options.idle = Idle::end;
-  Player player(base(), std::move(options));
+  Player player(shared_cache(), std::move(options));
   player.sign(parse_utterance(utterance));
   Shown shown;
   show(player, shown);

@@ -69,7 +69,7 @@ TEST(Player, SignsPiecesOfRecordings) {
 TEST(Player, TheSameWhenGlossesComeOneByOne) {
   const std::string tokens = "DEMAIN#1 MATIN#1 VANNES#1 PLUIE#2 RENNES#1 NUAGES#1";
   for (const std::size_t step : {1u, 7u, 30u}) {
-    Player player(base(), {.idle = Idle::end});
+    Player player(shared_cache(), {.idle = Idle::end});
     Shown shown;
     for (const Place& place : parse_utterance(tokens).places) {
       player.append({{place}});
@@ -83,7 +83,7 @@ TEST(Player, TheSameWhenGlossesComeOneByOne) {
 TEST(Player, ASignAppendedBeforeTheEndIsJoined) {
   // The rest, or the retraction, was already prepared, but no frame of it was taken.
   for (const Idle idle : {Idle::end, Idle::living_rest}) {
-    Player player(base(), {.idle = idle});
+    Player player(shared_cache(), {.idle = idle});
     player.sign(parse_utterance("DEMAIN#1"));
     Shown shown;
     show(player, shown, 1);
@@ -100,7 +100,7 @@ TEST(Player, ASignAppendedBeforeTheEndIsJoined) {
 }
 
 TEST(Player, TheFirstFrameComesBeforeTheLastGloss) {
-  Player player(base(), {});
+  Player player(shared_cache(), {});
   EXPECT_EQ(player.header(), nullptr);
   EXPECT_EQ(player.prepare(10), 0u);
   player.append(parse_utterance("DEMAIN"));

@@ -38,7 +38,7 @@ struct Io {
   int status = 0;         ///< the exit status of the process; a command sets 1 if some of its inputs were at fault
 };
 
-/// What a verb runs after its options have been parsed.
+/// The action of a verb, run after its options have been parsed.
 using Run = std::function<void(Io&)>;
 
 /// One verb. `setup` adds its options to `verb` and returns what to run after parsing.

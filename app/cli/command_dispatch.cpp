@@ -39,11 +39,12 @@ constexpr Command kCommands[] = {
      compact_file},
     {"query", "find signs, phases and annotations", "signweave query corpus.db 'gloss = \"VANNES\" & phase = stroke'",
      query},
-    {"xpath", "ask the annotation documents themselves, in XPath 1.0",
+    {"xpath", "query the annotation documents themselves, in XPath 1.0",
      "signweave xpath corpus.db '//TIER[@TIER_ID=\"Gloss\"]//ANNOTATION_VALUE'", xpath},
-    {"sign", "make new signing from glosses", "signweave sign corpus.db 'VANNES MATIN PLUIE' -o out.bvh -o out.eaf",
+    {"sign", "generate new signing from glosses", "signweave sign corpus.db 'VANNES MATIN PLUIE' -o out.bvh -o out.eaf",
      sign},
-    {"edit", "change a recording's words", "signweave edit corpus.db meteo --replace BRETAGNE=VANNES -o out.bvh", edit},
+    {"edit", "replace or swap signs of a recording",
+     "signweave edit corpus.db meteo --replace BRETAGNE=VANNES -o out.bvh", edit},
     {"export", "write a recording, or a part of it",
      "signweave export corpus.db meteo -o part.bvh --from 1000 --to 4000", export_recording},
     {"convert", "write files of one format as another, without a database",
@@ -51,7 +52,7 @@ constexpr Command kCommands[] = {
     {"segment", "propose phases of both hands, from motion alone", "signweave segment meteo.bvh -o meteo.phases.eaf",
      segment},
     {"stats", "durations of the recorded transitions", "signweave stats corpus.db --recording meteo", stats},
-    {"evaluate", "cut captured movements out, make them again by each method, compare",
+    {"evaluate", "cut out captured movements, regenerate them by each method, compare",
      "signweave evaluate recordings/ --plot errors.svg", evaluate},
     {"serve", "answer over HTTP, and stream signing live", "signweave serve corpus.db --listen 127.0.0.1:8080", serve},
     {"render", "draw signing as a film or pictures",
@@ -197,11 +198,11 @@ calls::Listener listener_of(Io& io) {
 }
 
 void report_damage(const Database& database, Io& io) {
-  tell_damage(database, listener_of(io));
+  calls::report_damage(database, listener_of(io));
 }
 
 int dispatch(const std::vector<std::string>& words, Io& io) {
-  CLI::App app("signweave: a database of captured signing: search it by meaning and movement, make new signing from it",
+  CLI::App app("signweave: a database of captured signing: find signs by meaning and movement, make new signing",
                "signweave");
   app.set_version_flag("--version", std::string(version()));
   app.formatter(std::make_shared<HelpFormat>());  // before the verbs, which inherit it

@@ -21,7 +21,7 @@ struct ImportArguments {
   calls::ImportCall call;
 };
 
-/// The outcome for people: JSON keeps one older spelling, because programs compare it.
+/// The outcome as shown to people: JSON keeps an older spelling of one outcome, because programs compare it.
 std::string_view outcome_text(ImportOutcome outcome) {
   return outcome == ImportOutcome::measured ? "measured again" : name_of(outcome);
 }

@@ -156,7 +156,7 @@ void info_of_annotation(const std::string& path, Io& io) {
   print_notices(io, notices);
 }
 
-/// What a score contains, for people; with --json what it is about.
+/// Prints what a score contains; with --json, what it is about.
 void info_of_score(const std::string& path, Io& io) {
   const Score score = score_from_json(read_file(path, kLargestScore), path);
   if (!io.json) {

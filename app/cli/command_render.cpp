@@ -33,7 +33,7 @@ namespace fs = std::filesystem;
 using namespace std::chrono_literals;
 using nlohmann::json;
 
-/// After this time without progress the browser is given up.
+/// After this time without progress, waiting for the browser ends.
 constexpr auto kPatience = 120s;
 
 /// What is drawn, as far as the fields of a call specify it.
@@ -234,8 +234,8 @@ calls::Characters characters_of(const RenderArguments& given) {
   return fs::is_directory(of_studio) ? calls::Characters(of_studio) : calls::Characters();
 }
 
-/// Reads the moments of --at. The parser cannot tell which words after --at are the utterance: those that are not
-/// numbers.
+/// Reads the moments of --at. Words after --at that are not numbers are the utterance, which the parser cannot
+/// distinguish.
 void take_moments(RenderArguments& given) {
   for (const std::string& word : given.moments) {
     std::int64_t ms = 0;

@@ -5,7 +5,7 @@
 namespace signweave::server {
 namespace {
 
-/// Above this number of entries, those that are as good as new are removed.
+/// Above this number of entries, those in the same state as a new entry are removed.
 constexpr std::size_t kMany = 10'000;
 
 std::string key_of(const boost::asio::ip::address& address) {

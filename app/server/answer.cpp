@@ -16,7 +16,7 @@ const std::vector<AnswerFormat>& answer_formats() {
   static const std::vector<AnswerFormat> formats = [] {
     std::vector<AnswerFormat> list;
     for (const FileFormat& format : file_formats()) {
-      if (format.writes) list.push_back({format.extension.substr(1), format.extension, format.media_type});
+      if (format.writes()) list.push_back({format.extension.substr(1), format.extension, format.media_type});
     }
     list.push_back({"frames", ".frames", "application/vnd.signweave.frames"});
     list.push_back({"score", ".score.json", "application/vnd.signweave.score+json"});

@@ -16,7 +16,7 @@
 #include "signweave/calls/synthesis_call.h"
 #include "signweave/core/answer.h"
 
-/// The answers that only the server gives, or to which it adds: see core/answer.h.
+/// The answers that only the server gives, or that it extends: see core/answer.h.
 namespace signweave::server {
 
 inline AnswerField declarations_field() {
@@ -47,7 +47,7 @@ void fields(Visit& visit, const DatabasesAnswer& answer) {
   visit(AnswerField{.name = "databases"}, answer.databases);
 }
 
-/// A signer that motion can be put on.
+/// A character that motion can be shown on.
 struct CharacterRow {
   std::string name;
   std::string file;

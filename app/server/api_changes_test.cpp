@@ -261,7 +261,7 @@ TEST(ApiChanges, OnlyPlainFileNamesAreAccepted) {
   EXPECT_THAT(fault_of(api.send("POST", at({"uploads", id, "import"}), {{"skeleton", "none.asf"}})), StartsWith("404"));
   EXPECT_EQ(api.put(at({"uploads", id, "files", "pairs.csv"}), "/etc/passwd,,x,0\n").status, 200);
   EXPECT_THAT(fault_of(api.send("POST", at({"uploads", id, "import"}), {{"pairs", "pairs.csv"}})),
-              HasSubstr("may only name files beside it"));
+              HasSubstr("may only name files next to it"));
   EXPECT_THAT(fault_of(api.put(at({"uploads", "0123", "files", "a"}), "x")), StartsWith("404"));
 }
 

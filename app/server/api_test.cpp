@@ -179,7 +179,7 @@ TEST(Api, RefusesScoresThatCannotBeRendered) {
   EXPECT_THAT(fault_of(sent_score("{}")), HasSubstr("score: the whole: it must be a score"));
   EXPECT_THAT(fault_of(sent_score(score, {{"frames", "10..30"}})), HasSubstr("also request a format of motion"));
   EXPECT_THAT(fault_of(sent_score(score, {{"frames", "10..30"}, {"format", "eaf"}})),
-              HasSubstr("eaf is of a whole score: leave frames out"));
+              HasSubstr("eaf describes a whole score: omit frames"));
   EXPECT_THAT(fault_of(sent_score(score, {{"frames", "30..10"}, {"format", "bvh"}})), HasSubstr("expected FROM..TO"));
   EXPECT_THAT(fault_of(sent_score(score, {{"frames", "10..99999"}, {"format", "bvh"}})),
               HasSubstr("are not in a score"));

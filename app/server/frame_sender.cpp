@@ -19,7 +19,7 @@ constexpr std::size_t kMostEvents = 16 * 1024;
 constexpr std::chrono::milliseconds kStale{100};
 /// How long a client that accepts everything may keep others waiting.
 constexpr std::chrono::milliseconds kFastTurn{1};
-/// Consecutive places that cannot be signed; further ones are reported at the next turn.
+/// The most consecutive places that cannot be signed and are reported in one turn; further ones follow in the next.
 constexpr int kMostFaults = 16;
 
 std::size_t batch_of(std::size_t wanted, std::size_t frame_bytes, std::size_t message_bytes) {
@@ -117,7 +117,7 @@ void FrameSender::go() {
     if (send_fast()) thread_.pacer.want_work(*this);
     return;
   }
-  // If the player was idle, the first frame of new glosses is sent now; otherwise the pace is kept.
+  // If the player was idle, the first frame of new glosses is sent now; otherwise the pace is unchanged.
   const Clock::time_point now = Clock::now();
   if (!flowing_ || (was_idle_ && asked_ != kNever)) start_clock(now);
   thread_.pacer.wake_at(*this, tick(now));

@@ -31,7 +31,7 @@ ApiResponse list_databases(Call& call) {
 
 ApiResponse show_database(Call& call) {
   const Database& database = call.database().database();
-  calls::tell_damage(database, call.listener());
+  calls::report_damage(database, call.listener());
   const calls::DatabaseInfo info = calls::run_info(
       database, [&] { return database.usage(); }, call.listener());
   call.declare_all(*info.contents);

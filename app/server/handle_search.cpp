@@ -55,7 +55,7 @@ ApiResponse find_segments(Call& call) {
   const bool bounded = query.limit == 0 || query.limit > limits.answers;
   if (bounded) query.limit = limits.answers;
   const Database& database = call.database().database();
-  calls::tell_damage(database, call.listener());
+  calls::report_damage(database, call.listener());
   const calls::QueryReport report = calls::run(database, query);
   call.notices.insert(call.notices.end(), report.hints.begin(), report.hints.end());
   if (bounded && report.answers.size() == limits.answers) {
@@ -78,7 +78,7 @@ ApiResponse count_transitions(Call& call) {
     throw Error(ErrorCode::bad_input, fault);
   }
   const Database& database = call.database().database();
-  calls::tell_damage(database, call.listener());
+  calls::report_damage(database, call.listener());
   const calls::Counted counted = calls::run(database, parameters, call.listener());
   const std::shared_ptr<const Contents> contents = database.contents();
   for (const std::string& name : counted.names) {

@@ -160,7 +160,7 @@ ApiResponse sign_utterance(Call& call) {
     throw too_large(fmt::format("the utterance has {} places; the limit is {}", places, call.state.limits.glosses));
   }
   const Database& database = call.database().database();
-  calls::tell_damage(database, call.listener());
+  calls::report_damage(database, call.listener());
   return deliver(call, calls::run(database, sign, call.state.limits.frames), sign.how, calls::title_of(sign), format);
 }
 
@@ -183,7 +183,7 @@ ApiResponse render_score(Call& call) {
     throw too_large(fmt::format("the score has {} frames; the limit is {}", score.frames, call.state.limits.frames));
   }
   const Database& database = call.database().database();
-  calls::tell_damage(database, call.listener());
+  calls::report_damage(database, call.listener());
   return deliver(call, calls::run(database, score, how, {format}), calls::choices_of(how), "score", format);
 }
 
@@ -196,7 +196,7 @@ ApiResponse edit_recording(Call& call) {
         fmt::format("there are {} replacements; the limit is {}", edit.replace.size(), call.state.limits.glosses));
   }
   const Database& database = call.database().database();
-  calls::tell_damage(database, call.listener());
+  calls::report_damage(database, call.listener());
   return deliver(call, calls::run(database, edit, call.state.limits.frames), edit.how, calls::title_of(edit), format);
 }
 

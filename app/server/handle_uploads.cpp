@@ -17,7 +17,8 @@ struct JobCall {
 
 template <class Visit>
 void fields(Visit& visit, JobCall& call) {
-  visit(calls::Field{.name = "job", .help = "what the call that began the job answered", .required = true}, call.job);
+  visit(calls::Field{.name = "job", .help = "the number returned by the call that began the job", .required = true},
+        call.job);
   visit(calls::Field{.name = "from",
                      .help = "index of the first entry to return of the result's list of recordings, counted from "
                              "0; for clients that already have the earlier ones",

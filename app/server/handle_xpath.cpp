@@ -16,7 +16,7 @@ ApiResponse find_nodes(Call& call) {
   const bool bounded = wanted.limit == 0 || wanted.limit > limits.answers;
   if (bounded) wanted.limit = limits.answers;
   const Database& database = call.database().database();
-  calls::tell_damage(database, call.listener());
+  calls::report_damage(database, call.listener());
   const std::vector<XPathAnswer> answers = calls::run(database, wanted);
   if (bounded && answers.size() == limits.answers) {
     call.notices.push_back({"", "there may be more answers than the server returns: these are the first"});

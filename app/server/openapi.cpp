@@ -28,9 +28,11 @@ bool has(const std::vector<std::string>& names, const std::string& name) {
 
 Json path_parameter(const std::string& name) {
   constexpr std::pair<std::string_view, const char*> kHelp[] = {
-      {"database", "name of a database that is served"},    {"recording", "name of a recording"},
-      {"upload", "what opening the upload answered"},       {"file", "a plain file name, such as meteo.bvh"},
-      {"job", "what the call that began the job answered"},
+      {"database", "name of a database that is served"},
+      {"recording", "name of a recording"},
+      {"upload", "the id returned when the upload was opened"},
+      {"file", "a plain file name, such as meteo.bvh"},
+      {"job", "the number returned by the call that began the job"},
   };
   std::string help;
   for (const auto& [of, text] : kHelp) {
@@ -39,7 +41,7 @@ Json path_parameter(const std::string& name) {
   return {{"name", name}, {"in", "path"}, {"required", true}, {"description", help}, {"schema", {{"type", "string"}}}};
 }
 
-/// The fields of a call that do not stand in its path.
+/// The fields of a call that are not in its path.
 struct Fields {
   Json properties = Json::object();
   std::vector<std::string> required;
@@ -126,21 +128,22 @@ Json components() {
   parts["responses"] = {
       {"Fault",
        {{"description",
-         "400 what was sent is wrong, 403 served for reading only, 404 what was named is not there, 405, 409 somebody "
-         "else is changing it, 413 more than the server's limits, 415, 422 understood, but cannot be done, 500, 503 "
-         "stopped by a limit of time, or busy"},
+         "400 the request is wrong, 403 served for reading only, 404 a named resource does not exist, 405, 409 another "
+         "client is changing it, 413 exceeds the server's limits, 415, 422 understood, but cannot be done, 500, 503 "
+         "stopped by a time limit, or busy"},
         {"content", {{"application/json", {{"schema", reference("schemas", "Fault")}}}}}}}};
   parts["headers"] = {
       {"Declarations",
        {{"description",
-         "what the recordings that the answer is made of say of themselves, as JSON in ASCII: that a demo's signs are "
-         "placeholders, for example; whoever shows the answer must show this"},
+         "what the recordings used in the answer declare about themselves, as JSON in ASCII: that a demo's signs are "
+         "placeholders, for example; a program that shows the answer must show this"},
         {"schema", {{"type", "string"}}}}},
       {"Notices",
-       {{"description", "what stopped nothing, as a JSON list of objects with where and text, in ASCII; ten at most"},
+       {{"description",
+         "problems that did not stop the call, as a JSON list of objects with where and text, in ASCII; ten at most"},
         {"schema", {{"type", "string"}}}}}};
   parts["securitySchemes"] = {
-      {"token", {{"type", "http"}, {"scheme", "bearer"}, {"description", "where the server asks for one"}}}};
+      {"token", {{"type", "http"}, {"scheme", "bearer"}, {"description", "if the server requires one"}}}};
   return parts;
 }
 

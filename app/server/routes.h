@@ -25,7 +25,7 @@ struct Call {
   const Route& route;
   wire::Texts names;            ///< in the path: {"database": "demo"}
   Declarations declarations;    ///< of the recordings that the answer is built from
-  std::vector<Notice> notices;  ///< problems that stopped nothing
+  std::vector<Notice> notices;  ///< problems that did not stop the call
 
   ServedDatabase& database() const { return state.databases.at(names.at("database")); }
   /// Collects notices and faults; its progress callback ends the call when the time limit is reached.

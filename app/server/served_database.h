@@ -51,7 +51,7 @@ class ServedDatabase {
 
 /// A page that draws for this process, and the folder for what it sends back.
 struct Render {
-  std::string id;                ///< known to nobody else
+  std::string id;                ///< known only to the page
   std::filesystem::path folder;  ///< must exist
 };
 

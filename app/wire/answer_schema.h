@@ -17,7 +17,7 @@ namespace signweave::wire {
 /// The named schemas of a document: {"Notice": {…}, …}.
 using Schemas = nlohmann::ordered_json;
 
-/// The schema of a type of answer (core/answer.h), JSON Schema 2020-12 as OpenAPI 3.1 takes it. The schema of a type
+/// The schema of a type of answer (core/answer.h), JSON Schema 2020-12 as used by OpenAPI 3.1. The schema of a type
 /// with a name goes to `schemas`, and what is returned refers to it. Members that may come with a later version are
 /// allowed.
 template <class Value>
@@ -51,7 +51,7 @@ class AnswerSchemaWriter {
   Schemas* schemas_;
 };
 
-/// An object of these members; with a name it goes to `schemas`, and a reference is returned.
+/// The schema of an object with these members. With a name it is stored in `schemas`, and a reference is returned.
 nlohmann::ordered_json schema_of(const AnswerSchemaWriter& writer, Schemas& schemas);
 
 namespace schema_detail {

@@ -12,10 +12,10 @@ namespace signweave::wire {
 
 using calls::Field;
 
-/// The schema of one field, but for its type and default: help, values and bounds.
+/// The schema of one field, except its type and default: help, values and bounds.
 nlohmann::ordered_json schema_of(const Field& field);
 
-/// Describes a call's fields as JSON Schema (2020-12, as OpenAPI 3.1 takes it).
+/// Describes a call's fields as JSON Schema (2020-12, as used by OpenAPI 3.1).
 class SchemaWriter {
  public:
   template <class Member>
@@ -59,7 +59,7 @@ class SchemaWriter {
   std::vector<std::string> required;
 };
 
-/// The fields of a call, all of them.
+/// All fields of a call.
 template <class Call>
 SchemaWriter schema_of_call() {
   Call call;

@@ -25,7 +25,7 @@ void fields(Visit& visit, const MissingGloss& missing) {
 
 namespace signweave::wire {
 
-/// An error as it is reported to programs.
+/// An error as reported to programs.
 struct FaultAnswer {
   std::string code;
   std::string message;
@@ -60,7 +60,7 @@ void fields(Visit& visit, const FailedAnswer& answer) {
   visit(AnswerField{.name = "error"}, answer.error);
 }
 
-/// With what the kind of error says in addition: the place in a query, missing glosses of an utterance.
+/// Each includes what the kind of error adds: the position in a query, the missing glosses of an utterance.
 FaultAnswer fault_of(const Error& error, std::string_view code, const std::string& message);
 nlohmann::json fault_json(const Error& error, std::string_view code, const std::string& message);
 

@@ -7,7 +7,7 @@
 
 namespace signweave::wire {
 
-/// JSON that was built before: that of an answer of one of these types.
+/// JSON that was built earlier, from an answer of one of these types.
 template <class... Answers>
 struct Prebuilt {
   nlohmann::json json;

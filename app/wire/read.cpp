@@ -17,7 +17,7 @@ using nlohmann::json;
 
 constexpr std::string_view kTextFlags[] = {"true", "1", "", "false", "0"};
 
-/// A value as it may stand in a message.
+/// A value as it may be shown in a message.
 std::string shown(const json& value) {
   return value.is_string() ? fmt::format("'{}'", printable(value.get<std::string>()))
                            : printable(value.dump(-1, ' ', false, json::error_handler_t::replace));
@@ -74,8 +74,8 @@ Number whole_number(const Field& field, const json& value, bool texts) {
 
 constexpr std::size_t kMostNested = 64;
 
-/// Where the text opens one list or object too many, npos where it does not. To copy and write a value takes stack for
-/// each level of it, so depth must be refused before there is a value.
+/// The position where the text nests lists or objects too deeply; npos if it does not. Copying and writing a value
+/// takes stack space for each level, so deep nesting must be refused before a value is built.
 std::size_t too_deep(std::string_view text) {
   std::size_t depth = 0;
   bool in_text = false;

@@ -19,12 +19,12 @@ using Texts = std::map<std::string, std::string>;
 /// The notice about a parameter that was given by its former name: "'remake' is now 'regenerate'".
 Notice renamed(const Field& field);
 
-/// Reads a call's fields out of a JSON object or out of texts by name, such as a URL's query. What is wrong with a
-/// value, a field that is missing and one that there is not are Error{bad_input, "FIELD: …"} in one line, the last with
-/// near matches. A field's former name is read too, and noted; giving both names is an error.
+/// Reads a call's fields from a JSON object or from named texts, such as a URL's query. A wrong value, a missing field
+/// and an unknown field are Error{bad_input, "FIELD: …"} in one line, the last with near matches. A field's former name
+/// is also accepted, with a notice; giving both names is an error.
 class FieldReader {
  public:
-  /// `given`: fields that are known already, such as names in a URL's path; the source must not hold them.
+  /// `given`: fields that are known already, such as names in a URL's path; the source must not contain them.
   FieldReader(nlohmann::json object, const Texts& given);
   /// Lists are separated by commas; a flag is true, false, 1, 0, or nothing, which is true.
   FieldReader(const Texts& texts, const Texts& given);
@@ -33,9 +33,9 @@ class FieldReader {
   void operator()(const Field& field, Member& member) {
     if (const std::optional<nlohmann::json> value = take(field)) read(field, *value, member);
   }
-  /// Throws where something was given that no field took.
+  /// Throws if the source contains something that no field took.
   void finish() const;
-  /// One for each field that was given by its former name.
+  /// One notice for each field that was given by its former name.
   const std::vector<Notice>& notices() const { return notices_; }
 
  private:
@@ -55,12 +55,12 @@ class FieldReader {
   const Texts* given_;
   bool texts_ = false;  ///< every value is a text
   std::vector<std::string> known_;
-  std::vector<std::string> formers_;  ///< accepted like those known, but never suggested
+  std::vector<std::string> formers_;  ///< accepted like known names, but never suggested
   std::vector<Notice> notices_;
 };
 
-/// The call that an object or texts stand for; what they do not say is as the call is by default. Appends to `notices`
-/// those about former names.
+/// Reads a call from an object or texts; fields that are not given keep their defaults. Appends notices about former
+/// names to `notices`.
 template <class Call, class Source>
 Call read_call(const Source& source, const Texts& given = {}, std::vector<Notice>* notices = nullptr) {
   Call call;
@@ -71,7 +71,7 @@ Call read_call(const Source& source, const Texts& given = {}, std::vector<Notice
   return call;
 }
 
-/// A JSON document, empty text being an empty object; lists and objects at most 64 deep. Throws Error{bad_input,
+/// Parses a JSON document; an empty text is an empty object. Nesting is limited to 64 levels. Throws Error{bad_input,
 /// "body:LINE:COLUMN: …"}.
 nlohmann::json parse_body(std::string_view text);
 

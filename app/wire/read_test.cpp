@@ -29,14 +29,14 @@ std::string fault_of(const Source& source) {
   return "";
 }
 
-TEST(ReadCall, WhatIsNotGivenIsAsByDefault) {
+TEST(ReadCall, FieldsNotGivenKeepTheirDefaults) {
   const SignCall call = read_call<SignCall>(json{{"utterance", "VANNES"}});
   EXPECT_EQ(call.utterance, "VANNES");
   EXPECT_EQ(call.how.transition, transition_methods().front().name);
   EXPECT_EQ(call.how.tempo, 1);
 }
 
-TEST(ReadCall, JsonAndTextsGiveTheSame) {
+TEST(ReadCall, JsonAndTextsGiveTheSameCall) {
   const ImportCall from_json = read_call<ImportCall>(
       json{{"sign_tier", {"Gloss:right", "Gloss:left"}}, {"offset_ms", -12.5}, {"mirror", true}, {"unit", 0.01}});
   const ImportCall from_texts = read_call<ImportCall>(
@@ -49,13 +49,13 @@ TEST(ReadCall, JsonAndTextsGiveTheSame) {
   }
 }
 
-TEST(ReadCall, ANumberMayStandForATextOnlyWhereTheFieldSaysSo) {
+TEST(ReadCall, ANumberIsAcceptedForATextOnlyIfTheFieldAllowsIt) {
   EXPECT_EQ(read_call<SignCall>(json{{"utterance", "A"}, {"duration", 300}}).how.duration, "300");
   EXPECT_EQ(read_call<SignCall>(json{{"utterance", "A"}, {"rate", 29.97}}).how.rate, "29.97");
   EXPECT_EQ(fault_of<SignCall>(json{{"utterance", 3}}), "utterance: expected a text, not 3");
 }
 
-TEST(ReadCall, JunctionsAreAListOfWhatTheCommandLineSays) {
+TEST(ReadCall, JunctionsAreAListOfCommandLineTexts) {
   const SignCall call = read_call<SignCall>(json{{"utterance", "A B C"}, {"junctions", {"1=sine", "2=450ms,x1.5"}}});
   const SynthesisOptions options = options_of(call.how);
   ASSERT_EQ(options.junctions.size(), 2u);
@@ -87,12 +87,12 @@ TEST(ReadCall, FaultsNameTheField) {
   EXPECT_THAT(fault_of<RelayoutCall>(json{{"acces_mode", "full"}}), HasSubstr("did you mean access_mode?"));
 }
 
-TEST(ReadCall, WhatThePathSaysIsNotTakenFromElsewhere) {
+TEST(ReadCall, FieldsOfThePathAreNotAcceptedElsewhere) {
   EXPECT_EQ(read_call<RemoveCall>(Texts{}, Texts{{"recording", "meteo"}}).recording, "meteo");
   EXPECT_THROW(read_call<RemoveCall>(Texts{{"recording", "x"}}, Texts{{"recording", "meteo"}}), Error);
 }
 
-TEST(ReadCall, AFormerNameIsTakenWithOneNotice) {
+TEST(ReadCall, AFormerNameIsAcceptedWithOneNotice) {
   for (const bool texts : {false, true}) {
     std::vector<Notice> notices;
     const ExportCall call =
@@ -123,7 +123,7 @@ TEST(ParseBody, FaultsHaveLineAndColumn) {
   EXPECT_EQ(parse_body(" \n"), json::object());
 }
 
-TEST(ParseBody, WhatIsNestedTooDeepIsRefusedBeforeItIsRead) {
+TEST(ParseBody, TooDeepNestingIsRefusedBeforeParsing) {
   const auto nested = [](std::size_t depth) { return std::string(depth, '[') + std::string(depth, ']'); };
   EXPECT_EQ(parse_body(nested(64)).size(), 1u);
   EXPECT_EQ(parse_body("{\"\\\"" + nested(200'000) + "\": \"" + nested(100) + "\"}").size(), 1u) << "in texts";

@@ -7,7 +7,7 @@
 
 namespace signweave::wire {
 
-/// A document as it is printed and sent: indented by two, bytes that are not UTF-8 replaced, a line feed at the end.
+/// A document as printed and sent: indented by two, invalid UTF-8 replaced, with a line feed at the end.
 template <class Json>
 std::string text_of(const Json& document) {
   return document.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + '\n';

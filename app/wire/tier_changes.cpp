@@ -48,7 +48,7 @@ json take_list(json& object, const std::string& name) {
   return list;
 }
 
-/// Reads an object of a list; errors begin with its place, such as "tiers[0].".
+/// Reads an object of a list; errors begin with its position, such as "tiers[0].".
 template <class Part>
 Part read_part(const json& object, const std::string& where) {
   try {
@@ -87,7 +87,7 @@ TierChanges tier_changes_from_json(std::string_view text) {
   const json tiers = take_list(body, "tiers");
   const json properties = take_list(body, "properties");
   TierChanges changes;
-  const Texts none;  // the reader borrows it
+  const Texts none;  // borrowed by the reader
   FieldReader rest(std::move(body), none);
   rest(Field{.name = "remove", .help = "names of tiers"}, changes.remove);
   rest.finish();

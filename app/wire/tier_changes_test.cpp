@@ -76,7 +76,7 @@ std::string refusal(const std::string& changes) {
   return "taken";
 }
 
-TEST(Annotate, SpreadsAnnotationsThatOverlapOverTiersAndLeavesEverythingElse) {
+TEST(Annotate, SpreadsOverlappingAnnotationsOverTiersAndChangesNothingElse) {
   const std::string changes = R"({"tiers": [{"name": "query", "type": "query answers", "spread": true, "annotations": [
       {"begin_ms": 500, "end_ms": 800, "label": "B & <C>"}, {"begin_ms": 0, "end_ms": 600, "label": "A"},
       {"begin_ms": 600, "end_ms": 700, "label": "É"}]}]})";
@@ -86,7 +86,7 @@ TEST(Annotate, SpreadsAnnotationsThatOverlapOverTiersAndLeavesEverythingElse) {
   EXPECT_THAT(annotations_of(document, "query 2"), ElementsAre("0..600 A", "600..700 É"));
   EXPECT_THAT(annotations_of(document, "query 3"), ElementsAre("500..800 B & <C>"));
   EXPECT_EQ(document.find_tier("query 3")->type, "query answers");
-  // Only the count of the last annotation is another line; times, references and what is not modelled stay.
+  // Only the line with the last annotation number differs; times, references and unmodelled elements stay.
   const std::vector<std::string> after = lines_of(text);
   for (const std::string& line : lines_of(kAnnotated)) {
     if (line.find("lastUsedAnnotationId") == line.npos) EXPECT_THAT(after, testing::Contains(line));
@@ -123,7 +123,7 @@ TEST(Annotate, NoChangeGivesTheSameBytes) {
   EXPECT_EQ(written("{}"), kAnnotated);
 }
 
-TEST(Annotate, RefusesWhatNoDocumentCanHold) {
+TEST(Annotate, RefusesChangesThatNoDocumentCanHold) {
   EXPECT_EQ(refusal(R"({"remove": ["Gloss"]})"), "tier 'Gloss' is the parent of 'Note': remove that first");
   EXPECT_EQ(refusal(R"({"remove": ["Note", "Gloss"]})"), "taken");
   EXPECT_THAT(refusal(R"({"remove": ["Glos"]})"), HasSubstr("no tier 'Glos'; did you mean Gloss?"));

@@ -14,7 +14,7 @@ namespace signweave::calls {
 /// Writes tiers into the annotation of a recording and returns the result; stores nothing.
 struct AnnotateCall {
   std::string recording;
-  std::string if_annotation;  ///< empty: whichever the recording has
+  std::string if_annotation;  ///< empty: whatever annotation the recording has
 };
 
 template <class Visit>
@@ -34,12 +34,13 @@ struct NewTier {
   std::string type;  ///< a tier type without constraints; if the document has it with some, "TYPE 2", … is taken
   std::string annotator;
   std::string participant;
-  /// Put annotations that overlap onto several tiers, "NAME 1", "NAME 2", …, without the names that the document has.
+  /// Distributes overlapping annotations over several tiers, "NAME 1", "NAME 2", …, skipping names that the document
+  /// already has.
   bool spread = false;
   std::vector<Annotation> annotations;  ///< labels and spans, in any order
 };
 
-/// All but its annotations.
+/// Everything except the annotations.
 template <class Visit>
 void fields(Visit& visit, NewTier& tier) {
   visit(Field{.name = "name", .help = "name of the tier", .required = true}, tier.name);
@@ -55,14 +56,13 @@ struct TierChanges {
   std::vector<std::pair<std::string, std::string>> properties;  ///< name, value: set, or added
 };
 
-/// Returns the document with the changes. An EAF keeps its source, so that everything else is written byte for byte.
-/// Throws Error{not_found} for a tier to be removed that does not exist, Error{bad_input} for one that has children, a
-/// name that occurs twice, and annotations of a tier that overlap.
+/// Returns the document with the changes. An EAF document keeps its source text, so everything else is written byte for
+/// byte. Throws Error{not_found} for a tier to be removed that does not exist, Error{bad_input} for one that has
+/// children, a name that occurs twice, and overlapping annotations in one tier.
 AnnotationDocument with_tiers(AnnotationDocument document, const TierChanges& changes);
 
-/// The same with the recording's annotation, or with an empty document that links its motion file. Throws
-/// Error{not_found} for a recording that does not exist, Error{conflict} if it has another annotation than
-/// `if_annotation`.
+/// Like with_tiers, for the recording's annotation, or for an empty document that links its motion file. Throws
+/// Error{not_found} if the recording does not exist, Error{conflict} if its annotation is not `if_annotation`.
 AnnotationDocument run(const Database& database, const AnnotateCall& call, const TierChanges& changes);
 
 }  // namespace signweave::calls

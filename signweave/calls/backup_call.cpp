@@ -15,7 +15,7 @@ BackupReport run(const Database& database, const std::filesystem::path& folder, 
   BackupOptions options;
   if (call.keep) options.keep = static_cast<std::size_t>(*call.keep);
   BackupReport report = backup(database, folder, options, progress_of(listener));
-  for (const std::string& fault : report.faults) listener.blame(fault);
+  for (const std::string& fault : report.faults) listener.report_fault(fault);
   return report;
 }
 
@@ -24,7 +24,7 @@ RestoreReport run(const std::filesystem::path& folder, const std::filesystem::pa
   RestoreOptions options{.engine = call.engine, .skip_damaged = call.skip_damaged};
   if (call.state) options.state = static_cast<std::uint64_t>(*call.state);
   RestoreReport report = restore(folder, database, options, progress_of(listener));
-  for (const std::string& line : report.left_out) listener.blame(line);
+  for (const std::string& line : report.left_out) listener.report_fault(line);
   return report;
 }
 

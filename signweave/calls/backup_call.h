@@ -34,7 +34,7 @@ void fields(Visit& visit, const RestoreReport& report) {
   visit(AnswerField{.name = "left_out"}, report.left_out);
 }
 
-/// Of a state that cannot be read there is only the number and the reason.
+/// A state that cannot be read has only its number and the reason.
 template <class Visit>
 void fields(Visit& visit, const BackupState& state) {
   const bool good = state.fault.empty();
@@ -59,17 +59,17 @@ struct BackupCall {
 template <class Visit>
 void fields(Visit& visit, BackupCall& call) {
   visit(Field{.name = "keep",
-              .help = "how many states stay in the backup, the newest; all where not given",
+              .help = "how many states stay in the backup, the newest; all if not given",
               .range = Range{std::int64_t{1}, std::int64_t{1'000'000}},
               .type_name = "N"},
         call.keep);
 }
 
-/// Reports faults to the listener, and throws as signweave::backup does.
+/// Reports faults to the listener. Throws what signweave::backup throws.
 BackupReport run(const Database& database, const std::filesystem::path& folder, const BackupCall& call,
                  const Listener& listener);
 
-/// Makes a database of a state of a backup.
+/// Restores a state of a backup as a database.
 struct RestoreCall {
   std::optional<std::int64_t> state;
   std::string engine;
@@ -79,21 +79,21 @@ struct RestoreCall {
 template <class Visit>
 void fields(Visit& visit, RestoreCall& call) {
   visit(Field{.name = "state",
-              .help = "which state, as 'signweave info BACKUP' numbers them; the newest where not given",
+              .help = "which state, as 'signweave info BACKUP' numbers them; the newest if not given",
               .range = Range{std::int64_t{1}, std::int64_t{999'999'999}},
               .type_name = "N"},
         call.state);
-  visit(Field{.name = "engine", .help = "key-value engine; as it was where not given", .one_of = kv::engines()},
+  visit(Field{.name = "engine", .help = "key-value engine; as it was if not given", .one_of = kv::engines()},
         call.engine);
   visit(Field{.name = "skip_damaged", .help = "leave out recordings whose files are damaged, instead of refusing"},
         call.skip_damaged);
 }
 
-/// Reports what is left out to the listener, and throws as signweave::restore does.
+/// Reports what is left out to the listener. Throws what signweave::restore throws.
 RestoreReport run(const std::filesystem::path& folder, const std::filesystem::path& database, const RestoreCall& call,
                   const Listener& listener);
 
-/// The states of a backup, as backup_states gives them.
+/// The states of a backup, as returned by backup_states.
 struct BackupStatesAnswer {
   std::vector<BackupState> states;
 };

@@ -73,9 +73,10 @@ Relayouted run(Database& database, const RelayoutCall& call, const Listener& lis
     const std::shared_ptr<const Contents> contents = database.contents();
     for (const RecordingInfo& info : contents->recordings) names.push_back(info.name);
   } else {
-    for (const std::string& name : names) database.contents()->at(name);  // a wrong name changes nothing
+    for (const std::string& name : names)
+      database.contents()->at(name);  // throws for an unknown name before anything changes
   }
-  // What was rounded stays so; for the whole database 0 is about those to come.
+  // Motions already rounded stay rounded; for the whole database, 0 applies only to later imports.
   Storage stored = storage;
   if (all && storage.tolerance == 0.0f) stored.tolerance.reset();
   Relayouted done{.recordings = names.size()};
@@ -90,9 +91,9 @@ Relayouted run(Database& database, const RelayoutCall& call, const Listener& lis
       if (!database.measure(names[i]) && !stored_again) continue;
       done.changed.push_back(names[i]);
       if (changed) changed(names[i]);
-    } catch (const Error& error) {  // the others go on
+    } catch (const Error& error) {  // the others continue
       if (error.code() == ErrorCode::cancelled) throw;
-      listener.blame(fmt::format("{}: {}", names[i], error.what()), error.remedies());
+      listener.report_fault(fmt::format("{}: {}", names[i], error.what()), error.remedies());
       whole = false;
     }
   }

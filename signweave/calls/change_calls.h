@@ -11,7 +11,7 @@
 
 namespace signweave::calls {
 
-/// Empty, or what is wrong with the value.
+/// Each returns what is wrong with the value; empty if it is valid.
 std::string check_access_mode(const std::string& text);
 std::string check_compact(const std::string& text);
 std::string check_documents(const std::string& text);
@@ -44,10 +44,10 @@ void fields(Visit& visit, const Removed& removed) {
   visit(AnswerField{.name = "removed", .help = "the name of the recording"}, removed.recording);
 }
 
-/// Throws Error{not_found}. Call `learn` after it.
+/// Throws Error{not_found}. Call `learn` afterwards.
 Removed run(Database& database, const RemoveCall& call);
 
-/// Stores motions in another access mode, annotation documents in the other way.
+/// Stores motions in another access mode or tolerance, and annotation documents in another form.
 struct RelayoutCall {
   std::string access_mode;
   std::optional<double> compact;  ///< millimetres
@@ -66,11 +66,11 @@ void fields(Visit& visit, RelayoutCall& call) {
         call.recordings);
 }
 
-/// Empty, or why there is nothing to do.
+/// Returns why there is nothing to do; empty if there is something.
 std::string nothing_to_change(const RelayoutCall& call);
 
 struct Relayouted {
-  std::size_t recordings = 0;        ///< that were to be stored again
+  std::size_t recordings = 0;        ///< number that were to be stored again
   std::vector<std::string> changed;  ///< names
 };
 template <class Visit>
@@ -80,9 +80,9 @@ void fields(Visit& visit, const Relayouted& done) {
   visit(AnswerField{.name = "changed", .help = "the names of those that were"}, done.changed);
 }
 
-/// What a recording is at fault for is told, and the others go on. Throws Error{not_found} for a name that is not
-/// there, before anything is changed, and Error{bad_input} where nothing is to be changed. Call `learn` after it.
-/// Calls `changed` for each recording as soon as it is stored again; these stay so if the rest is cancelled.
+/// A recording that fails is reported to the listener, and the others continue. Throws Error{not_found} for an unknown
+/// name before anything is changed, and Error{bad_input} if nothing is to be changed. Calls `changed` for each
+/// recording as soon as it is stored again; these stay changed if the rest is cancelled. Call `learn` afterwards.
 Relayouted run(Database& database, const RelayoutCall& call, const Listener& listener,
                const std::function<void(const std::string&)>& changed = {});
 

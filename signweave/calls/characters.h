@@ -17,23 +17,23 @@ inline constexpr const char* kCharacterHelp =
     "show it on this character, whose joints the poses then have: on the command line a GLB that studio/avatar/build "
     "made, of a server a name that /api/characters lists";
 
-/// A character, and the file that shows it. Immutable: threads share it.
+/// A character and its files. Immutable, so it may be shared between threads.
 struct CharacterFile {
-  std::string name;             ///< of the file, without its ending: "woman"
-  std::filesystem::path path;   ///< what a browser loads
-  std::filesystem::path plain;  ///< what motions are written into; the same where it is not packed
+  std::string name;             ///< of the file without its extension: "woman"
+  std::filesystem::path path;   ///< the file that a browser loads
+  std::filesystem::path plain;  ///< the file that motions are written into; equal to `path` if that is not packed
   Character character;
 };
 using SharedCharacter = std::shared_ptr<const CharacterFile>;
 
-/// Reads a character; "woman.plain.glb" beside "woman.glb" is its plain file. Throws what read_character throws.
+/// Reads a character; "woman.plain.glb" next to "woman.glb" is its plain file. Throws what read_character throws.
 SharedCharacter read_character_file(const std::filesystem::path& path);
 
-/// The characters of a folder, by name. Immutable: threads share it.
+/// The characters of a folder, by name. Immutable, so it may be shared between threads.
 class Characters {
  public:
   Characters() = default;
-  /// Every .glb of the folder. Throws Error{not_found} where there is no such folder or no character in it, and what
+  /// Reads every .glb of the folder. Throws Error{not_found} if the folder does not exist or has no character, and what
   /// read_character throws.
   explicit Characters(const std::filesystem::path& folder);
   explicit Characters(SharedCharacter one) : all_{std::move(one)} {}
@@ -46,16 +46,17 @@ class Characters {
   std::vector<SharedCharacter> all_;
 };
 
-/// How a recording's signer is built and where the floor is: measured on frames spread over the whole of it, so that
-/// every part of it is put onto a character alike.
+/// A signer's proportions and the floor, measured on frames spread over the whole recording, so that every part of it
+/// is retargeted to a character in the same way.
 struct SignerStance {
   SignerModel signer;
-  Motion frames;  ///< those, without tracks
+  Motion frames;  ///< the measured frames, without tracks
 };
-/// Throws Error{corrupt}, Error{not_found} where the recording has no motion.
+/// Throws Error{corrupt}, and Error{not_found} if the recording has no motion.
 SignerStance stance_of(const Database& database, const RecordingInfo& recording);
 
-/// A motion on a character, at the same rate and with its tracks; what is missing or approximate goes to `notices`.
+/// Retargets a motion to a character, at the same rate and with its tracks; adds what is missing or approximate to
+/// `notices`.
 Motion on_character(const Motion& motion, const SignerStance& stance, const Character& character,
                     std::vector<Notice>& notices);
 

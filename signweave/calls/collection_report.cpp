@@ -25,7 +25,7 @@ bool signs(const MethodScores& method) {
   return known != nullptr && known->offered == Offered::signing;
 }
 
-/// What `sign` offers, beside kriging.
+/// The methods that `sign` offers, compared with kriging.
 std::vector<Judgement> judgements_of(const EvaluatedTask& task, Bootstrap& bootstrap) {
   std::vector<Judgement> judgements;
   const MethodScores* const other = scores_of(task, kReferenceMethod);
@@ -43,7 +43,7 @@ std::string cell_of(const Estimate& estimate) {
   return fmt::format("{:.3f} ({:.2f}–{:.2f})", estimate.value, estimate.low, estimate.high);
 }
 
-/// The median over the spans of each collection, and the mean of these.
+/// The mean over the collections of the median over their spans.
 double median_of(const EvaluatedTask& task, const MethodScores& method, const ReportGroup& group) {
   std::map<std::size_t, std::vector<double>> errors;
   for (const std::size_t span : group.spans) {
@@ -61,7 +61,7 @@ double median_of(const EvaluatedTask& task, const MethodScores& method, const Re
   return sum / static_cast<double>(errors.size());
 }
 
-/// The first method's error over slerp's: rows are collections.
+/// The ratio of the first method's error to slerp's: rows are collections.
 std::string default_by_collection(const EvaluatedTask& task, const std::vector<ReportGroup>& groups,
                                   Bootstrap& bootstrap) {
   const MethodScores& method = task.methods.front();

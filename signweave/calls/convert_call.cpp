@@ -17,18 +17,18 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The one recording that some files are.
+/// The single recording that the files belong to.
 ImportJob only_job(const std::vector<fs::path>& inputs, std::vector<Notice>& notices) {
   Pairing pairing = pair_files(inputs);
   notices.insert(notices.end(), pairing.notices.begin(), pairing.notices.end());
   if (pairing.jobs.size() == 1) return std::move(pairing.jobs[0]);
-  if (pairing.jobs.empty()) throw Error(ErrorCode::bad_input, "no motion or annotation file there to convert");
+  if (pairing.jobs.empty()) throw Error(ErrorCode::bad_input, "there is no motion or annotation file to convert");
   throw Error(ErrorCode::bad_input,
               fmt::format("the files are {} recordings ('{}', '{}' …); convert one at a time", pairing.jobs.size(),
                           printable(pairing.jobs[0].name), printable(pairing.jobs[1].name)));
 }
 
-/// The annotation file of a motion's name beside it; or none.
+/// The annotation file next to a motion file, with the same name; none if there is none.
 std::optional<fs::path> annotation_next_to(const fs::path& motion) {
   std::error_code ignored;
   for (const FileFormat& format : file_formats()) {
@@ -39,7 +39,7 @@ std::optional<fs::path> annotation_next_to(const fs::path& motion) {
   return std::nullopt;
 }
 
-/// Throws where a file that is read would be written over.
+/// Throws if an output would overwrite an input.
 void keep_inputs(const ImportJob& job, const std::optional<fs::path>& annotation,
                  const std::vector<std::string>& outputs) {
   for (const std::optional<fs::path>& input : {job.motion, job.annotation, job.face, annotation}) {
@@ -47,7 +47,7 @@ void keep_inputs(const ImportJob& job, const std::optional<fs::path>& annotation
     for (const std::string& output : outputs) {
       std::error_code ignored;
       if (!fs::equivalent(*input, output, ignored)) continue;
-      throw Error(ErrorCode::bad_input, output + ": is what is converted; write to another file");
+      throw Error(ErrorCode::bad_input, output + ": is an input file; write to another file");
     }
   }
 }
@@ -73,7 +73,8 @@ void read_motion_half(const ImportJob& job, const ConvertCall& call, const std::
 
 Exported run(const std::vector<fs::path>& inputs, const ConvertCall& call, const std::vector<std::string>& outputs,
              const std::function<void(double)>& progress) {
-  Exported made{.info = {}, .frames = {}, .signing_space = call.signing_space, .wishes = wishes_of(call.bvh)};
+  Exported made{
+      .info = {}, .frames = {}, .signing_space = call.signing_space, .layout_changes = layout_changes_of(call.bvh)};
   const ImportJob job = only_job(inputs, made.notices);
   made.info.name = job.name;
   if (!call.rig.empty()) made.info.rig = read_rig_names(call.rig);
@@ -94,7 +95,7 @@ Exported run(const std::vector<fs::path>& inputs, const ConvertCall& call, const
     } catch (const Error& error) {
       if (asked) throw;
       made.notices.push_back(
-          {{}, fmt::format("what the annotation beside it declares is not known: {}", error.what())});
+          {{}, fmt::format("the declarations of the annotation next to it are not known: {}", error.what())});
     }
   }
   if (job.motion && !std::ranges::all_of(outputs, is_document)) read_motion_half(job, call, progress, made);

@@ -29,7 +29,7 @@ void fields(Visit& visit, ConvertCall& call) {
   fields(visit, call.reading);
   fields(visit, call.face);
   visit(Field{.name = "rig",
-              .help = "mapping file: lines 'part = joint' for what the joints' names do not tell",
+              .help = "mapping file: lines 'part = joint' for what joint names do not show",
               .is_file = true,
               .type_name = "FILE"},
         call.rig);
@@ -39,13 +39,13 @@ void fields(Visit& visit, ConvertCall& call) {
   fields(visit, call.bvh);
 }
 
-/// Reads a motion with the face that lies beside it or is named, or an annotation, as `outputs` ask by their endings.
-/// What an annotation of the same name declares of the recording (such as that its signs are placeholders) goes along.
-/// Throws Error{bad_input} where the inputs are not one recording, and as the readers do.
+/// Reads a motion with its face capture (named, or found next to it), or an annotation, depending on the extensions of
+/// `outputs`. The declarations of an annotation with the same name (such as that its signs are placeholders) are
+/// carried over. Throws Error{bad_input} if the inputs are not one recording, and what the readers throw.
 Exported run(const std::vector<std::filesystem::path>& inputs, const ConvertCall& call,
              const std::vector<std::string>& outputs, const std::function<void(double)>& progress);
 
-/// How the signer of a motion stands, for show_on.
+/// The stance of the signer of a motion, for show_on.
 SignerStance stance_of(const Motion& motion, const RigNames& rig);
 
 }  // namespace signweave::calls

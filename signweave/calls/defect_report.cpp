@@ -22,7 +22,7 @@ bool is_said(const Defect& defect, const std::vector<Notice>& notices) {
   return false;
 }
 
-/// "0", "12..40", the last one inclusive as people count.
+/// "0" or "12..40", with an inclusive end.
 std::string frames_of(const Defect& defect) {
   if (defect.frames.empty()) return "all";
   if (defect.frames.size() == 1) return std::to_string(defect.frames.begin);

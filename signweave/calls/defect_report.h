@@ -10,7 +10,7 @@
 
 namespace signweave::calls {
 
-/// A defect as answers give it.
+/// A defect as answers contain it.
 struct DefectRow {
   std::string_view kind;
   OrNull<std::string> joint;  ///< its name; none: the whole motion
@@ -35,8 +35,8 @@ void fields(Visit& visit, const DefectRow& row) {
 /// All defects. `skeleton` is the motion's.
 std::vector<DefectRow> defect_rows(const std::vector<Defect>& defects, const Skeleton& skeleton);
 
-/// Defects as a table for people: kind, joint, frames, what; empty if there is none. Leaves out what a notice of the
-/// reader already says: a permuted root, an unusual unit.
+/// Defects as a text table: kind, joint, frames, description; empty if there is none. Leaves out defects that a notice
+/// of the reader already reports: a permuted root, an unusual unit.
 std::string table_of(const std::vector<Defect>& defects, const Skeleton& skeleton, const std::vector<Notice>& notices);
 
 }  // namespace signweave::calls

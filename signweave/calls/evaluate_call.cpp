@@ -16,7 +16,7 @@ namespace {
 std::vector<const GapMethod*> methods_of(const EvaluateCall& call) {
   std::vector<const GapMethod*> methods;
   for (const GapMethod& method : gap_methods()) {
-    // What others are told over is always there.
+    // The reference of the ratios is always included.
     if (call.methods.empty() || method.name == "slerp" ||
         std::ranges::find(call.methods, method.name) != call.methods.end()) {
       methods.push_back(&method);
@@ -40,7 +40,7 @@ EvaluatedTask given_task(const EvaluationInput& input, const SpanChoice& choice,
   return task;
 }
 
-/// Of spans whose length is the movement's own: annotated, natural, or from a table.
+/// Evaluates spans whose length is the movement's own: annotated, natural, or from a table.
 EvaluatedTask predicted_task(const EvaluationInput& input, const SpanChoice& choice,
                              const std::vector<const GapMethod*>& methods, const Listener& listener) {
   EvaluatedTask task{.name = "duration predicted",
@@ -90,7 +90,7 @@ std::vector<SpanAnswer> span_answers(const EvaluationInput& input, const SpanCho
   return spans;
 }
 
-/// Tells a task which collection each recording belongs to.
+/// Sets the collection of each recording in a task.
 void add_collections(const EvaluationInput& input, EvaluatedTask& task) {
   std::set<std::string> names;
   for (const EvaluatedMotion& one : input.recordings) names.insert(one.collection);
@@ -101,7 +101,7 @@ void add_collections(const EvaluationInput& input, EvaluatedTask& task) {
   }
 }
 
-/// What tells methods apart best, of each task.
+/// The measures that best distinguish the methods, for each task.
 constexpr Measure kDrawn[] = {Measure::wrist,      Measure::fingertips,    Measure::peak_speed_error,
                               Measure::jerk_error, Measure::velocity_jump, Measure::depth};
 

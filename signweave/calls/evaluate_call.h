@@ -12,20 +12,20 @@
 
 namespace signweave::calls {
 
-/// Cuts captured movements out, makes them again by each method and compares.
+/// Cuts out captured movements, regenerates them by each method, and compares.
 struct EvaluateCall {
-  std::vector<std::string> methods;  ///< none: all; slerp, which others are told over, is always there
+  std::vector<std::string> methods;  ///< empty: all; slerp, the reference of the ratios, is always included
   std::uint64_t seed = 1;
-  std::string collections;  ///< a table of them (read_collections), as text; on the command line the name of its file
+  std::string collections;  ///< a table (see read_collections) as text; on the command line, the name of its file
 };
 
-/// Empty, or that there is no such method, with near matches.
+/// Returns that there is no such method, with near matches; empty if there is.
 std::string check_method(const std::string& name);
 
 template <class Visit>
 void fields(Visit& visit, EvaluateCall& call) {
   visit(Field{.name = "method",
-              .help = "this method alone, beside slerp; may be given again",
+              .help = "this method alone, in addition to slerp; may be given several times",
               .several_words = true,
               .check = check_method},
         call.methods);
@@ -44,7 +44,7 @@ void fields(Visit& visit, EvaluateCall& call) {
         call.collections);
 }
 
-/// What came of it.
+/// The result of an evaluation.
 struct Evaluated {
   EvaluationInput input;
   SpanChoice choice;
@@ -52,11 +52,11 @@ struct Evaluated {
   std::string_view left_out_by;  ///< see Folds
 };
 
-/// Throws Error{not_found} where there is nothing to evaluate on; what `listener.progress` throws ends it.
+/// Throws Error{not_found} if there is nothing to evaluate on, and what `listener.progress` throws.
 Evaluated run(const Database& database, const EvaluateCall& call, const Listener& listener);
-/// The same on any input and spans.
+/// Evaluates on any input and spans.
 Evaluated evaluate(EvaluationInput input, SpanChoice choice, const EvaluateCall& call, const Listener& listener);
-/// Throws Error{not_found} where there is none.
+/// Throws Error{not_found} if there is none.
 void require_recordings(const EvaluationInput& input, const std::string& where);
 
 EvaluationAnswer answer_of(const Evaluated& evaluated, const EvaluateCall& call, Bootstrap& bootstrap);

@@ -12,7 +12,7 @@
 /// The answer of `evaluate`.
 namespace signweave::calls {
 
-/// A figure with its interval.
+/// A value with its confidence interval.
 struct EstimateAnswer {
   OrNull<double> value;
   OrNull<double> low;
@@ -40,7 +40,7 @@ void fields(Visit& visit, const EstimateAnswer& estimate) {
 struct MeasureAnswer {
   EstimateAnswer estimate;
   std::optional<std::string> unit;
-  std::map<std::string, EstimateAnswer> over;  ///< ratios to this method's figure
+  std::map<std::string, EstimateAnswer> over;  ///< [method]: the ratio to that method's value
 };
 template <class Visit>
 void fields(Visit& visit, const MeasureAnswer& measure) {
@@ -97,7 +97,7 @@ void fields(Visit& visit, const CollectionEstimate& one) {
   estimate_fields(visit, one.estimate);
 }
 
-/// The wrist's error of a method over that of the reference method.
+/// The ratio of a method's wrist error to that of the reference method.
 struct JudgedAnswer {
   std::string method;
   std::string over;

@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The database in a folder; none where the folder is no database, but may hold motion files.
+/// Opens the database in a folder; null if the folder is no database but may hold motion files.
 std::unique_ptr<Database> database_in(const fs::path& path) {
   std::error_code ignored;
   if (!fs::is_directory(path, ignored)) return nullptr;
@@ -32,7 +32,8 @@ std::unique_ptr<Database> database_in(const fs::path& path) {
   }
 }
 
-/// A file whose root's columns are swapped is read again as they are: as it stands every pose of it is wrong.
+/// Reads a file, and reads it again with the right column order if the root's columns are swapped, which makes every
+/// pose wrong.
 motion_file::File read_motion(const fs::path& path, const MotionReading& words, const Listener& listener) {
   motion_file::ReadOptions options = read_options(words);
   motion_file::File file = motion_file::read(path, options);
@@ -40,17 +41,17 @@ motion_file::File read_motion(const fs::path& path, const MotionReading& words, 
   const RigMap rig = map_rig(file.motion);
   for (const Defect& defect : find_defects(file.motion, rig)) {
     if (defect.kind == DefectKind::scale) {
-      listener.tell({path.string(), defect.text});
+      listener.notify({path.string(), defect.text});
     }
     if (defect.kind != DefectKind::permuted_root) continue;
     options.root_columns = bvh::RootColumns::rotation_first;
-    listener.tell({path.string(), "the root's columns hold the rotation first, and are read so"});
+    listener.notify({path.string(), "the root's columns have the rotation first, and are read accordingly"});
     return motion_file::read(path, options);
   }
   return file;
 }
 
-/// Signs and the clock that ties them to the frames, as `import` finds both.
+/// Signs and the clock that relates them to frames, found as `import` finds them.
 struct Annotated {
   std::vector<Sign> signs;
   FrameClock clock;
@@ -58,7 +59,7 @@ struct Annotated {
 Annotated annotation_of(const ImportJob& job, FrameRate rate) {
   Annotated found{.signs = {}, .clock = {rate.frame_time(), Seconds(0)}};
   if (!job.annotation) return found;
-  // Signs that are left out would be missing from what is judged, and nobody would be told.
+  // Unsound annotations are refused: signs left out would silently be missing from the evaluation.
   const AnnotationDocument document =
       annotation_file::read(*job.annotation, annotation_file::Unsound::refused).document;
   found.signs = signs_in(document, guess_tier_names(document)).signs;
@@ -70,19 +71,19 @@ Annotated annotation_of(const ImportJob& job, FrameRate rate) {
   return found;
 }
 
-/// Adds one recording; what is wrong with it alone is told, and the others go on.
+/// Adds one recording; if it fails, reports it, so that the others continue.
 template <class Read>
 void add(const std::string& name, Read read, EvaluationInput& input, const Listener& listener) {
   try {
     EvaluatedMotion recording = read();
-    // Of a recording that is there twice one would teach what the other is judged by.
+    // If a recording were present twice, one copy would train the model that the other is evaluated with.
     const auto twin = std::ranges::find_if(input.recordings, [&](const EvaluatedMotion& other) {
       return other.motion.frame_count() == recording.motion.frame_count() &&
              std::ranges::equal(other.motion.rotations(), recording.motion.rotations(),
                                 [](const auto& a, const auto& b) { return a.coeffs() == b.coeffs(); });
     });
     if (twin != input.recordings.end()) {
-      listener.tell({"left out: " + recording.name, "the same motion as " + twin->name});
+      listener.notify({"left out: " + recording.name, "the same motion as " + twin->name});
       input.left_out.push_back(name);
       return;
     }
@@ -91,22 +92,22 @@ void add(const std::string& name, Read read, EvaluationInput& input, const Liste
     if (error.code() == ErrorCode::cancelled) throw;
     input.left_out.push_back(name);
     const std::string line = std::string("left out: ").append(error.what());
-    if (error.code() == ErrorCode::unsupported) {  // a short or handless motion is not at fault
-      listener.tell({"", line});
+    if (error.code() == ErrorCode::unsupported) {  // a short motion, or one without hands, is no fault
+      listener.notify({"", line});
     } else {
-      listener.blame(line);
+      listener.report_fault(line);
     }
   }
 }
 
-/// Absolute, and without a slash at its end.
+/// The absolute path, without a trailing slash.
 fs::path whole_path(const fs::path& path) {
   const fs::path whole = fs::absolute(path).lexically_normal();
   return whole.has_filename() ? whole : whole.parent_path();
 }
 
-/// The folder that a file's recording belongs to: of those in a folder that was given the first below it, of others
-/// their own. Files that were given one by one lie in theirs.
+/// The folder that determines a file's collection: below a given folder, the first folder under it; for a file in that
+/// folder itself or given by its own path, the folder that contains it.
 std::string collection_of(const fs::path& file, const std::vector<fs::path>& given) {
   const fs::path whole = whole_path(file);
   for (const fs::path& path : given) {
@@ -119,7 +120,7 @@ std::string collection_of(const fs::path& file, const std::vector<fs::path>& giv
   return whole.parent_path().string();
 }
 
-/// Calls each collection by its folder's name, unless two are called so.
+/// Names each collection after its folder, unless two folders have the same name.
 void name_collections(EvaluationInput& input) {
   std::map<std::string, std::set<std::string>> of_name;
   const auto name_of = [](const std::string& path) { return fs::path(path).filename().string(); };
@@ -130,7 +131,7 @@ void name_collections(EvaluationInput& input) {
 }
 
 void add_database(const Database& database, const std::string& name, EvaluationInput& input, const Listener& listener) {
-  tell_damage(database, listener);
+  report_damage(database, listener);
   const std::shared_ptr<const Contents> contents = database.contents();
   for (std::size_t i = 0; i < contents->recordings.size(); ++i) {
     const RecordingInfo& info = contents->recordings[i];

@@ -9,14 +9,14 @@
 
 namespace signweave::calls {
 
-/// What is evaluated on, and what could not be.
+/// The recordings to evaluate on, and those that were left out.
 struct EvaluationInput {
   std::vector<EvaluatedMotion> recordings;  ///< by name
   std::vector<std::string> left_out;        ///< names; each was reported
 };
 
-/// Recordings of databases, motion files, and folders of them with the annotation beside them. What cannot be
-/// evaluated on is told and left out; what cannot be read is a fault.
+/// Reads recordings of databases, motion files, and folders of motion files with their annotation. A recording that
+/// cannot be evaluated on is left out with a notice; one that cannot be read is reported as a fault.
 EvaluationInput read_evaluation_input(const std::vector<std::string>& paths, const MotionReading& reading,
                                       const Listener& listener);
 

@@ -33,13 +33,13 @@ std::string title_of(const MeasureInfo& info) {
   return info.unit.empty() ? std::string(info.name) : fmt::format("{}, {}", info.name, info.unit);
 }
 
-/// What a measure is told over beside the measure itself, if anything.
+/// The method that a measure is also given as a ratio to; empty if none.
 std::string_view yardstick_of(Measure measure) {
   if (measure == Measure::wrist) return kYardstick;
   return measure == Measure::fingertips ? kFingerYardstick : std::string_view();
 }
 
-/// A duration is told before any method comes in.
+/// Whether a measure does not depend on the method: durations are predicted before a method is applied.
 bool same_for_all(Measure measure) {
   return measure == Measure::duration || measure == Measure::mean_duration;
 }
@@ -189,7 +189,7 @@ std::string default_text(const EvaluatedTask& task, Bootstrap& bootstrap) {
     }
   };
   for (const MeasureInfo& info : measures()) {
-    // How long it took is of this machine and this moment: for who asks for everything.
+    // Run times depend on the machine and the moment, so only the full report has them.
     if (same_for_all(info.measure) || info.measure == Measure::microseconds) continue;
     add(title_of(info), info.decimals, [&](const ReportGroup& group) {
       return std::optional(estimate_of(task, method, group, HandChoice::moving, info.measure, bootstrap));
@@ -209,7 +209,7 @@ std::string full_text(const EvaluatedTask& task, Bootstrap& bootstrap) {
     for (const HandChoice hand : kHands) {
       text += fmt::format("\n{}, {}: {} hand, {} of {}\n", task.name, group.name, name_of(hand),
                           counted(group.spans.size(), "span"), counted(recordings_of(task, group), "recording"));
-      TextRows columns;  // of each: title, a cell for each method, how many spans
+      TextRows columns;  // of each column: title, a cell for each method, number of spans
       const auto add = [&](const std::string& title, int decimals, auto figure) {
         std::vector<std::string> column = {title};
         std::size_t most = 0;
@@ -238,7 +238,7 @@ std::string full_text(const EvaluatedTask& task, Bootstrap& bootstrap) {
         for (std::size_t i = first; i < std::min(columns.size(), first + kColumns); ++i) {
           for (std::size_t row = 0; row < rows.size(); ++row) rows[row].push_back(columns[i][row]);
         }
-        // A method of which a table tells nothing is left out of it.
+        // A method without a number in a table is left out of it.
         std::erase_if(rows, [](const std::vector<std::string>& row) {
           return std::all_of(row.begin() + 1, row.end(), [](const std::string& cell) { return cell == "-"; });
         });
@@ -251,7 +251,7 @@ std::string full_text(const EvaluatedTask& task, Bootstrap& bootstrap) {
 
 namespace {
 
-/// The figures of a method in a group, by hand. Measures without a score are left out.
+/// The values of a method in a group for one hand. Measures without a score are left out.
 FiguresAnswer figures_of(const EvaluatedTask& task, const ReportGroup& group, HandChoice hand,
                          const MethodScores& method, Bootstrap& bootstrap) {
   FiguresAnswer figures;

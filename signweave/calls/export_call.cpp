@@ -32,12 +32,12 @@ JointSet joints_named(const std::string& names, const Skeleton& skeleton) {
   return joints;
 }
 
-/// The part of a document inside a span, its times moved so that the span begins at 0. Annotations that reach over an
-/// end are cut; linked files keep their place in time. Everything else of the document is carried over.
+/// The part of a document inside a span, with its times shifted so that the span begins at 0. Annotations that extend
+/// beyond the span are cut; linked files keep their position in time. Everything else is carried over.
 AnnotationDocument cut_document(const AnnotationDocument& document, TimeSpan span,
                                 const std::vector<std::string>& outputs) {
   AnnotationDocument cut = document;
-  // A file that is written now with the part in it begins where the part does.
+  // A file that is written by this export begins at time 0, so its old link is dropped.
   std::erase_if(cut.linked_files, [&](const LinkedFile& linked) {
     return std::any_of(outputs.begin(), outputs.end(), [&](const std::string& path) {
       const std::string name = std::filesystem::path(path).filename().string();
@@ -55,7 +55,7 @@ AnnotationDocument cut_document(const AnnotationDocument& document, TimeSpan spa
   return cut;
 }
 
-/// Leaves of a document these tiers, and those that they lie in. Throws for one that is not there.
+/// Removes all tiers from a document except these and their ancestors. Throws for one that does not exist.
 void keep_tiers(AnnotationDocument& document, const std::vector<std::string>& wanted) {
   std::vector<std::string> known;
   for (const Tier& tier : document.tiers) known.push_back(tier.id);
@@ -78,7 +78,7 @@ FileContent Exported::content() const {
       .motion = motion ? &*motion : nullptr,
       .document = document ? &*document : nullptr,
       .layout = character ? std::nullopt : info.motion_facts.layout,
-      .layout_changes = wishes,
+      .layout_changes = layout_changes,
       .title = regenerated.empty() ? info.name : fmt::format("{}, in part made by {}", info.name, regenerated_by->name),
       .rig = character ? RigNames{} : info.rig,
       .signing_space = signing_space,
@@ -90,7 +90,7 @@ Exported run(const Database& database, const ExportCall& call, const std::vector
   const Snapshot snapshot = database.snapshot();
   Exported made{.info = snapshot.contents().at(call.recording),
                 .signing_space = call.signing_space,
-                .wishes = wishes_of(call.bvh)};
+                .layout_changes = layout_changes_of(call.bvh)};
   const RecordingInfo& info = made.info;
   const bool part = call.from || call.to;
   made.frames = {0, info.motion ? info.motion->frames : 0};
@@ -100,7 +100,7 @@ Exported run(const Database& database, const ExportCall& call, const std::vector
     throw Error(ErrorCode::bad_input, "'from' must be before 'to'");
   }
   if (!call.transition.empty() && call.regenerate.empty()) {
-    throw Error(ErrorCode::bad_input, "'transition' says how 'regenerate' makes what it cuts out: give both");
+    throw Error(ErrorCode::bad_input, "'transition' applies only to 'regenerate': give both");
   }
   const auto is_document = [](const std::string& path) { return extension_of(path) == ".eaf"; };
   if (info.motion && !std::ranges::all_of(outputs, is_document)) {
@@ -127,7 +127,7 @@ Exported run(const Database& database, const ExportCall& call, const std::vector
     made.motion = at_rate(std::move(motion), call.rate, info.name, made.notices);
   }
   if (!call.regenerate.empty() && !made.motion) {
-    throw Error(ErrorCode::bad_input, info.motion ? "'regenerate' makes motion: ask for a file of motion"
+    throw Error(ErrorCode::bad_input, info.motion ? "'regenerate' generates motion: request a motion file"
                                                   : fmt::format("regenerate: '{}' has no motion", info.name));
   }
   if (info.document != 0 && std::ranges::any_of(outputs, is_document)) made.document = database.document(info.name);

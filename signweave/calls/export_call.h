@@ -34,7 +34,7 @@ struct ExportCall {
 
 inline Field tiers_field() {
   return {.name = "tiers",
-          .help = "of the annotation only these tiers, and those that they lie in",
+          .help = "only these tiers of the annotation, and their parents",
           .several_words = true,
           .type_name = "TIER"};
 }
@@ -64,29 +64,29 @@ void fields(Visit& visit, ExportCall& call) {
   fields(visit, call.bvh);
 }
 
-/// The content to write.
+/// The content of an export.
 struct Exported {
   RecordingInfo info;
   FrameRange frames;  ///< of the recording's motion
   std::optional<Motion> motion;
   std::optional<AnnotationDocument> document;
   bool signing_space = false;
-  bvh::LayoutChanges wishes;
-  SharedCharacter character;            ///< whose joints the motion has; none: those of the recording
-  std::vector<FrameRange> regenerated;  ///< of the recording's frames those that were cut out and generated again
-  const TransitionMethod* regenerated_by = nullptr;  ///< where any were
+  bvh::LayoutChanges layout_changes;
+  SharedCharacter character;                         ///< its joints are the motion's; null: the recording's
+  std::vector<FrameRange> regenerated;               ///< the recording's frames that were cut out and generated again
+  const TransitionMethod* regenerated_by = nullptr;  ///< null if none were
   std::vector<Notice> notices;
 
-  /// Borrows from this.
+  /// The content to write; borrows from this object.
   FileContent content() const;
 };
 
-/// `outputs`: names of the files that it will be written to, which say by their endings what is needed. The annotation
-/// is cut where the frames are, so that both begin together. Throws Error{not_found} for a recording or joint that is
-/// not there (with near matches), Error{bad_input}.
+/// Reads what the files named in `outputs` need, which depends on their extensions. The annotation is cut where the
+/// frames are, so that both begin together. Throws Error{not_found} for an unknown recording, joint or tier (with near
+/// matches), Error{bad_input}.
 Exported run(const Database& database, const ExportCall& call, const std::vector<std::string>& outputs);
 
-/// Puts what is to be written on a character.
+/// Retargets what is to be written to a character.
 void show_on(Exported& made, const SignerStance& stance, SharedCharacter character);
 
 /// A span that was generated again.
@@ -104,7 +104,7 @@ void fields(Visit& visit, const RegeneratedAnswer& one) {
 }
 std::vector<RegeneratedAnswer> regenerated_of(const Exported& exported);
 
-/// Recording, number of frames, and what of them was generated again.
+/// The recording, the number of frames, and the spans that were generated again.
 template <class Visit>
 void fields(Visit& visit, const Exported& exported) {
   visit.type("Exported");

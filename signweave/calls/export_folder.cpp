@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Names of which no two are the same, whatever their case.
+/// File names that are distinct regardless of case.
 std::vector<std::string> distinct_names(const std::vector<RecordingInfo>& recordings) {
   std::set<std::string> taken;
   std::vector<std::string> names;
@@ -47,7 +47,7 @@ FileKind kind_of(const std::string& extension) {
   return file_format("x" + extension)->kind;
 }
 
-/// True if the recording has what a file with this extension holds.
+/// True if the recording has content for a file with this extension.
 bool has_part(const RecordingInfo& info, const std::string& extension) {
   switch (kind_of(extension)) {
     case FileKind::annotation:
@@ -68,7 +68,7 @@ void check_extensions(const std::vector<std::string>& extensions) {
   }
 }
 
-/// Of the tiers that are wanted those that a recording's document has.
+/// The wanted tiers that a recording's document has.
 std::vector<std::string> tiers_in(const AnnotationDocument& document, const std::vector<std::string>& wanted) {
   std::vector<std::string> found;
   for (const std::string& tier : wanted) {
@@ -77,7 +77,7 @@ std::vector<std::string> tiers_in(const AnnotationDocument& document, const std:
   return found;
 }
 
-/// [recording] the tiers of each that are wanted. Throws for one that none has.
+/// [recording] its wanted tiers. Throws for a tier that no recording has.
 std::vector<std::vector<std::string>> tiers_of(const Database& database, const std::vector<RecordingInfo>& recordings,
                                                const std::vector<std::string>& wanted) {
   std::vector<std::vector<std::string>> tiers(recordings.size());
@@ -110,7 +110,7 @@ std::vector<std::string> pair_row(const RecordingInfo& info, const std::vector<s
     if (format->kind == FileKind::face) row[4] = name;
   }
   row[2] = info.signer;
-  // A part begins where its annotation does.
+  // A part begins at time 0 of its annotation.
   if (!row[0].empty() && !row[1].empty())
     row[3] = fmt::format("{:.6g}", part ? 0.0 : info.clock.origin.count() * 1000.0 + 0.0);
   if (row[0].empty()) row[4].clear();
@@ -161,14 +161,14 @@ FolderExported run(const Database& database, const FolderExport& call, const Lis
       if (has_part(info, extension) && !empty) files.push_back((call.folder / (names[i] + extension)).string());
     }
     if (files.empty()) {
-      listener.tell({info.name, fmt::format("has nothing for {}", fmt::join(extensions, " "))});
+      listener.notify({info.name, fmt::format("has nothing for {}", fmt::join(extensions, " "))});
       continue;
     }
     ExportCall one = call.call;
     one.recording = info.name;
     one.tiers = tiers[i];
     const Exported made = run(database, one, files);
-    listener.tell_all(made.notices);
+    listener.notify_all(made.notices);
     FileContent content = made.content();
     const auto advance = [&](double fraction) {
       listener.advance((static_cast<double>(i) + fraction) / static_cast<double>(recordings.size()));
@@ -179,10 +179,11 @@ FolderExported run(const Database& database, const FolderExport& call, const Lis
     done.files.insert(done.files.end(), files.begin(), files.end());
     merge_declarations(made.info.declarations, done.declarations);
     if (info.motion && std::abs(info.clock.frame_time.count() * info.motion->rate.hertz() - 1) > 1e-9) {
-      listener.tell({info.name,
-                     "its annotation's clock is not that of its frames, which pairs.csv cannot hold; give sync points "
-                     "when it is imported again",
-                     {{"sync", ""}}});
+      listener.notify(
+          {info.name,
+           "its annotation's clock differs from that of its frames, which pairs.csv cannot express; give sync "
+           "points when you import it again",
+           {{"sync", ""}}});
     }
     pairs.push_back(pair_row(info, files, part));
   }

@@ -13,10 +13,10 @@ namespace signweave::calls {
 
 /// Writes several recordings, or all, as files into one folder.
 struct FolderExport {
-  std::vector<std::string> recordings;  ///< names; none: all
-  std::vector<std::string> extensions;  ///< ".bvh", …: of the files of each; none: what import reads it back from
-  std::filesystem::path folder;         ///< made where it is missing
-  ExportCall call;                      ///< what of each; its `recording` is not looked at
+  std::vector<std::string> recordings;  ///< names; empty: all
+  std::vector<std::string> extensions;  ///< ".bvh", …, of the files to write; empty: those that import reads back
+  std::filesystem::path folder;         ///< created if it does not exist
+  ExportCall call;                      ///< what to export of each; its `recording` is ignored
 };
 
 struct FolderExported {
@@ -25,13 +25,14 @@ struct FolderExported {
   Declarations declarations;       ///< of the recordings, each once
 };
 
-/// A name for a file of a recording: what a file system may refuse in it is '_'. The same of two different names.
+/// A file name for a recording: characters that a file system may refuse become '_'. Two recordings may get the same
+/// file name.
 std::string file_name_of(const std::string& recording);
 
-/// Of each recording the files that it has something for (an annotation for .eaf, scalar tracks for .face.csv, else a
-/// motion), and `pairs.csv`, by which `import --pairs` takes them all again: names, signers, clocks. Files that are
-/// there are replaced, each whole or not at all. Throws Error{not_found} for a recording, joint or tier that no
-/// recording has, Error{bad_input} for an extension that has no writer, before anything is written; and Error{io}.
+/// Writes for each recording the files it has content for (an annotation for .eaf, scalar tracks for .face.csv, else a
+/// motion), and `pairs.csv`, with which `import --pairs` reads them all back: names, signers, clocks. Existing files
+/// are replaced, each atomically. Throws, before anything is written, Error{not_found} for an unknown recording or for
+/// a joint or tier that no recording has, and Error{bad_input} for an extension without a writer; and Error{io}.
 FolderExported run(const Database& database, const FolderExport& call, const Listener& listener);
 
 template <class Visit>

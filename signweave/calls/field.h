@@ -7,21 +7,21 @@
 #include <variant>
 #include <vector>
 
-/// Calls: what signweave can be asked for, free of how it is asked. Of each call one struct of parameters, one
-/// description of its fields, one function that answers it and one that puts the answer into JSON. The command line
-/// and the server share them all.
+/// Calls: the operations of signweave, independent of the interface that requests them. Each call has a struct of
+/// parameters, a description of its fields, a function that runs it, and a description of its answer. The command line
+/// and the server share them.
 namespace signweave::calls {
 
 using Bound = std::variant<std::int64_t, std::size_t, double>;
 
-/// Both ends belong to it.
+/// Inclusive at both ends.
 struct Range {
   Bound least;
   Bound most;
 };
 
-/// One field of a call's parameters, described once. From it come the option of the command line, what a JSON body or a
-/// URL may hold, and the schema of the OpenAPI document. A call's `fields` visits each field with its description and
+/// One field of a call's parameters, described once. The command-line option, the members of a JSON body or a URL, and
+/// the schema of the OpenAPI document are derived from it. A call's `fields` visits each field with its description and
 /// its member, in the order of `--help`:
 ///
 ///     template <class Visit>
@@ -36,16 +36,17 @@ struct Field {
   std::string help;              ///< one line
   std::string_view former = {};  ///< its previous name, still accepted, with a notice
   std::string_view words =
-      {};  ///< on the command line: a positional argument (capitals), or an option's name if it is another
+      {};  ///< on the command line: a positional argument (capitals), or an option's name if it differs
   bool required = false;
   bool shows_default = false;  ///< in `--help`
-  bool or_number = false;      ///< of a string: JSON may give a number, too
+  bool or_number = false;      ///< of a string: JSON may also give a number
   bool several_words = false;  ///< of a list: on the command line several values may follow the option
-  bool is_file = false;        ///< names a file: on the command line by its path, else one of the same upload
+  bool is_file = false;        ///< names a file: by its path on the command line, else a file of the same upload
   std::optional<Range> range{};
   std::vector<std::string> one_of{};
-  std::string (*check)(const std::string&) = nullptr;  ///< what is wrong with a value, in one line; empty: nothing
-  std::string_view type_name = {};                     ///< in `--help`
+  std::string (*check)(const std::string&) =
+      nullptr;                      ///< returns what is wrong with a value, in one line; empty: nothing
+  std::string_view type_name = {};  ///< in `--help`
 };
 
 }  // namespace signweave::calls

@@ -12,7 +12,7 @@ namespace signweave::calls {
 
 namespace {
 
-/// "TIER", "TIER:right", "TIER:left:SIGNER". A tier whose name holds a colon is written with all three parts.
+/// Parses "TIER", "TIER:right", "TIER:left:SIGNER". A tier whose name contains a colon needs all three parts.
 TierNames::SignTier parse_sign_tier(const std::string& text) {
   TierNames::SignTier tier;
   const auto hand_of = [](const std::string& word) -> std::optional<Hand> {
@@ -140,7 +140,7 @@ void run(Database& database, const Pairing& pairing, const ImportOptions& option
       advance(0);
       imported.report = import_recording(database, jobs[i], options, advance);
       imported.name = imported.report->name;
-    } catch (const Error& error) {  // a bad recording changes nothing of its own; the others are imported
+    } catch (const Error& error) {  // its stored data is unchanged; the others are imported
       if (error.code() == ErrorCode::cancelled) throw;
       imported.error = error;
     }

@@ -29,14 +29,14 @@ struct ImportCall {
   std::string rig;
   bool strict = false;
   bool replace_motion = false;
-  std::string if_annotation;            ///< empty: whichever it is
-  std::vector<std::string> recordings;  ///< none: all
+  std::string if_annotation;            ///< empty: whatever annotation the recording has
+  std::vector<std::string> recordings;  ///< empty: all
 };
 
-/// Empty, or why `text` is no FRAME@MS.
+/// Returns why `text` is not FRAME@MS; empty if it is.
 std::string check_sync(const std::string& text);
 
-/// Empty, or why `text` tells no annotation.
+/// Returns why `text` identifies no annotation; empty if it does.
 std::string check_fingerprint(const std::string& text);
 
 template <class Visit>
@@ -45,9 +45,9 @@ void fields(Visit& visit, ImportCall& call) {
               .help = "CSV: motion, annotation, signer, offset in ms, face ('-': none), face offset in ms, name",
               .is_file = true},
         call.pairs);
-  visit(Field{.name = "sign_tier", .help = "tier of glosses, TIER[:right|left|both[:SIGNER]]; guessed where not given"},
+  visit(Field{.name = "sign_tier", .help = "tier of glosses, TIER[:right|left|both[:SIGNER]]; guessed if not given"},
         call.sign_tiers);
-  visit(Field{.name = "phase_tier", .help = "tier of phases; guessed where not given"}, call.phase_tiers);
+  visit(Field{.name = "phase_tier", .help = "tier of phases; guessed if not given"}, call.phase_tiers);
   visit(Field{.name = "no_sign_tier", .help = "no tier holds signs: none is guessed, nor one of phases"},
         call.no_sign_tier);
   visit(Field{.name = "no_phase_tier", .help = "no tier holds phases: none is guessed"}, call.no_phase_tier);
@@ -58,7 +58,7 @@ void fields(Visit& visit, ImportCall& call) {
   visit(Field{.name = "sync", .help = "FRAME@MS, given twice: sets offset and drift", .check = check_sync}, call.syncs);
   fields(visit, call.face);
   visit(Field{.name = "rig",
-              .help = "mapping file: lines 'part = joint' for what the joints' names do not tell; remembered, an empty "
+              .help = "mapping file: lines 'part = joint' for what joint names do not show; remembered, an empty "
                       "file forgets",
               .is_file = true,
               .type_name = "FILE"},
@@ -81,30 +81,31 @@ void fields(Visit& visit, ImportCall& call) {
         call.recordings);
 }
 
-/// Of checked fields. Reads the call's own files, and throws as their readers do, and Error{bad_input} where tiers are
-/// named and are said not to be there.
+/// Requires checked fields. Reads the files that the call names. Throws what their readers throw, and Error{bad_input}
+/// if tiers are both named and declared absent.
 ImportOptions options_of(const ImportCall& call);
 
-/// What belongs together of some files and folders, of it the recordings that are wanted. Throws as pair_files does,
-/// and Error{not_found} with near matches for a recording that is not among them. With `plain_files` a table of pairs
-/// may only name files beside it.
+/// Pairs files and folders into recordings, and selects the wanted ones. With `plain_files`, a table of pairs may only
+/// name files in its own folder. Throws what pair_files throws, and Error{not_found} with near matches for a recording
+/// that is not among them.
 Pairing pairing_of(const ImportCall& call, const std::vector<std::filesystem::path>& inputs, bool plain_files = false);
 
-/// What became of one recording.
+/// The result for one recording.
 struct Imported {
   std::string name;
-  std::optional<ImportReport> report;  ///< none where it failed
-  std::optional<Error> error;          ///< then
+  std::optional<ImportReport> report;  ///< none if it failed
+  std::optional<Error> error;          ///< if it failed
 };
 
-/// Imports one recording after the other; `done` is told of each when it is over. One that is at fault changes nothing
-/// of its own, and the others go on; Error{cancelled}, which progress may throw, ends it. Call `learn` after it.
+/// Imports the recordings in order; calls `done` with each result. A recording that fails leaves its stored data
+/// unchanged, and the others continue; Error{cancelled}, which progress may throw, ends the import. Call `learn`
+/// afterwards.
 void run(Database& database, const Pairing& pairing, const ImportOptions& options, const Listener& listener,
          const std::function<void(const Imported&)>& done);
 
 std::string_view name_of(ImportOutcome outcome);
 
-/// Why something was refused.
+/// Visits why something was refused.
 template <class Visit>
 void error_fields(Visit& visit, const std::optional<Error>& error) {
   const Remedies remedies = error ? error->remedies() : Remedies();
@@ -113,7 +114,7 @@ void error_fields(Visit& visit, const std::optional<Error>& error) {
   visit(AnswerField{.name = "remedies"}, given_if(!remedies.empty(), remedies));
 }
 
-/// What became of a recording; `error` and `remedies` if it failed, else all the others.
+/// `error` and `remedies` if the recording failed, else all other fields.
 template <class Visit>
 void fields(Visit& visit, const Imported& imported) {
   const bool good = imported.report.has_value();

@@ -32,7 +32,7 @@ DatabaseInfo run_info(const Database& database, const std::function<std::vector<
   try {
     info.usage = usage();
   } catch (const Error& error) {
-    listener.blame(error.what());
+    listener.report_fault(error.what());
   }
   const std::shared_ptr<const semantic_db::Learned> learned = database.snapshot().learned();
   info.weights = learned->weights;
@@ -76,7 +76,7 @@ std::vector<FileFormat> formats_answer() {
 std::vector<std::vector<std::string>> format_rows() {
   std::vector<std::vector<std::string>> rows = {{"extension", "reads", "writes", "holds", "is lost"}};
   for (const FileFormat& format : file_formats()) {
-    rows.push_back({std::string(format.extension), format.reads ? "yes" : "no", format.writes ? "yes" : "no",
+    rows.push_back({std::string(format.extension), format.reads ? "yes" : "no", format.writes() ? "yes" : "no",
                     std::string(format.holds), std::string(format.lost)});
   }
   return rows;

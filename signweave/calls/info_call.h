@@ -39,7 +39,7 @@ void fields(Visit& visit, const FileFormat& format) {
   visit(AnswerField{.name = "ending", .help = "the former name of extension"}, format.extension);
   visit(AnswerField{.name = "name"}, format.name);
   visit(AnswerField{.name = "reads"}, format.reads);
-  visit(AnswerField{.name = "writes"}, format.writes);
+  visit(AnswerField{.name = "writes"}, format.writes());
   visit(AnswerField{.name = "holds"}, format.holds);
   visit(AnswerField{.name = "lost"}, format.lost);
 }
@@ -48,7 +48,7 @@ void fields(Visit& visit, const FileFormat& format) {
 
 namespace signweave::calls {
 
-/// Of a tolerance in metres, without the noise of its last bits.
+/// Converts a tolerance from metres, rounding off the noise of its last bits.
 double millimetres(float tolerance);
 double rounded_to_thousandths(double value);
 
@@ -57,19 +57,19 @@ struct DatabaseInfo {
   std::shared_ptr<const Contents> contents;
   kv::EngineInfo engine;
   int layout = 0;
-  std::vector<Usage> usage;  ///< empty where looking at every entry met damage
+  std::vector<Usage> usage;  ///< empty if reading every entry met damage
   AccessMode access_mode;
   float tolerance = 0;
-  DocumentStorage documents = DocumentStorage::document;  ///< of those to come
+  DocumentStorage documents = DocumentStorage::document;  ///< of later imports
   JoinWeights weights;
-  ResidualModel residuals;  ///< what movements taught of transitions
+  ResidualModel residuals;  ///< what was learned from captured movements
 };
 
-/// `usage` reads every entry: Database::usage, or usage_in_child. An error of it is reported to the listener.
+/// `usage` reads every entry: Database::usage, or usage_in_child. Its errors are reported to the listener.
 DatabaseInfo run_info(const Database& database, const std::function<std::vector<Usage>()>& usage,
                       const Listener& listener);
 
-/// A recording as the list of a database gives it. Borrows its facts.
+/// A row of the list of recordings. Borrows its data.
 struct RecordingRow {
   const RecordingInfo* info = nullptr;
 };
@@ -120,7 +120,7 @@ void fields(Visit& visit, const DatabaseInfo& info) {
   visit(AnswerField{.name = "recordings"}, recording_rows(info.contents.get()));
 }
 
-/// All that is known of one recording.
+/// Everything known about one recording.
 struct RecordingCall {
   std::string recording;
 };
@@ -131,7 +131,7 @@ void fields(Visit& visit, RecordingCall& call) {
         call.recording);
 }
 
-/// What `info` reports of a recording.
+/// What `info` reports about a recording.
 struct RecordingDetails {
   RecordingInfo info;
   std::optional<SignerModel> model;  ///< none without motion
@@ -146,7 +146,7 @@ struct RecordingDetails {
   std::string not_measured;  ///< why phases were not measured; empty: they were
 };
 
-/// Visits what is one number or one text of a recording.
+/// Visits the details that are a single number or text.
 template <class Visit>
 void figure_fields(Visit& visit, const RecordingDetails& details) {
   const RecordingInfo& info = details.info;
@@ -190,7 +190,7 @@ RecordingDetails run(const Database& database, const RecordingCall& call);
 
 /// The file formats.
 std::vector<FileFormat> formats_answer();
-/// The file formats, and what each can hold: rows, the heading first.
+/// The file formats and what each can hold, as rows; the heading first.
 std::vector<std::vector<std::string>> format_rows();
 
 }  // namespace signweave::calls

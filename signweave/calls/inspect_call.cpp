@@ -11,7 +11,7 @@ namespace signweave::calls {
 
 namespace {
 
-/// A folder that goes whatever happens.
+/// A folder that is removed in every case.
 struct Scratch {
   std::filesystem::path folder;
   explicit Scratch(std::filesystem::path path) : folder(std::move(path)) {}
@@ -27,7 +27,7 @@ OrNull<std::string> file_name_of(const std::optional<std::filesystem::path>& pat
   return {path ? std::optional(path->filename().string()) : std::nullopt};
 }
 
-/// The tiers, and which were taken for signs and phases.
+/// The tiers, and which were taken as signs and phases.
 std::vector<TierAnswer> tiers_of(const AnnotationDocument& document, const TierNames& names) {
   std::vector<TierAnswer> tiers;
   for (const Tier& tier : document.tiers) {
@@ -48,7 +48,7 @@ std::vector<TierAnswer> tiers_of(const AnnotationDocument& document, const TierN
   return tiers;
 }
 
-/// Of a recording that was imported into the scratch database.
+/// The content of a recording that was imported into the scratch database.
 InspectedContent content_of(const Database& scratch, const ImportReport& imported) {
   InspectedContent content{.details = run(scratch, RecordingCall{imported.name}),
                            .signs = imported.signs,

@@ -29,7 +29,7 @@ void fields(Visit& visit, const Layout& layout) {
 
 namespace signweave::calls {
 
-/// A tier of an annotation, and what it is used as.
+/// A tier of an annotation, and its role.
 struct TierAnswer {
   std::string tier;
   OrNull<std::string> parent;

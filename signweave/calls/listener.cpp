@@ -2,9 +2,9 @@
 
 namespace signweave::calls {
 
-void tell_damage(const Database& database, const Listener& listener) {
+void report_damage(const Database& database, const Listener& listener) {
   const std::shared_ptr<const Contents> contents = database.contents();
-  for (const std::string& fault : contents->faults) listener.blame(fault);
+  for (const std::string& fault : contents->faults) listener.report_fault(fault);
 }
 
 void learn(Database& database, const Listener& listener) {
@@ -12,7 +12,7 @@ void learn(Database& database, const Listener& listener) {
     database.merge();
     database.learn();
   } catch (const Error& error) {
-    listener.blame(std::string("what was learned: ").append(error.what()));
+    listener.report_fault(std::string("what was learned: ").append(error.what()));
   }
 }
 

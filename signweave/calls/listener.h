@@ -9,21 +9,21 @@
 
 namespace signweave::calls {
 
-/// Who is told what while a call runs; any may be empty. All are called on the thread of the call.
+/// Receives reports while a call runs; any function may be empty. All are called on the thread of the call.
 struct Listener {
-  std::function<void(const Notice&)> notice;  ///< something that stopped nothing
-  /// A part of the input is at fault, in one line, and what would fix it; the rest is done.
+  std::function<void(const Notice&)> notice;  ///< something that did not stop the call
+  /// A fault in a part of the input, in one line, and what would fix it; the rest is processed.
   std::function<void(const std::string& line, const Remedies&)> fault;
-  std::function<void(std::string_view)> stage;  ///< what begins now: its progress starts from 0
-  std::function<void(double)> progress;         ///< the part that is done, in [0, 1]; may throw to cancel
+  std::function<void(std::string_view)> stage;  ///< the stage that begins now: its progress starts from 0
+  std::function<void(double)> progress;         ///< the completed fraction, in [0, 1]; may throw to cancel
 
-  void tell(const Notice& one) const {
+  void notify(const Notice& one) const {
     if (notice) notice(one);
   }
-  void tell_all(const std::vector<Notice>& notices) const {
-    for (const Notice& one : notices) tell(one);
+  void notify_all(const std::vector<Notice>& notices) const {
+    for (const Notice& one : notices) notify(one);
   }
-  void blame(const std::string& line, const Remedies& remedies = {}) const {
+  void report_fault(const std::string& line, const Remedies& remedies = {}) const {
     if (fault) fault(line, remedies);
   }
   void begin(std::string_view what) const {
@@ -34,11 +34,11 @@ struct Listener {
   }
 };
 
-/// Tells of recordings that are damaged and therefore left out.
-void tell_damage(const Database& database, const Listener& listener);
+/// Reports recordings that are damaged and therefore left out.
+void report_damage(const Database& database, const Listener& listener);
 
-/// After a change: what the corpus teaches of joins is learned and stored. That it could not be stored is told; what
-/// was changed stays.
+/// Learns join costs from the corpus and stores them; to be called after a change. If that fails, the fault is reported
+/// and the change stays.
 void learn(Database& database, const Listener& listener);
 
 }  // namespace signweave::calls

@@ -9,8 +9,8 @@
 
 namespace signweave::calls {
 
-/// How a motion file is to be read. Empty texts: as the file says, or guessed. What a format does not know is passed
-/// over with a notice.
+/// How to read a motion file. Empty texts: as the file says, or guessed. Settings that a format does not have are
+/// ignored with a notice.
 struct MotionReading {
   std::string up;
   std::string unit;
@@ -24,15 +24,15 @@ struct MotionReading {
 
 template <class Visit>
 void fields(Visit& visit, MotionReading& reading) {
-  visit(Field{.name = "up", .help = "the file's vertical axis; guessed where not given", .one_of = {"y", "z"}},
+  visit(Field{.name = "up", .help = "the file's vertical axis; guessed if not given", .one_of = {"y", "z"}},
         reading.up);
   visit(Field{.name = "unit",
-              .help = "the file's unit: cm, m, mm, in or metres per unit; guessed where not given",
+              .help = "the file's unit: cm, m, mm, in or metres per unit; guessed if not given",
               .or_number = true,
               .check = check_unit},
         reading.unit);
   visit(Field{.name = "root_unit",
-              .help = "the unit of the root's position where it is another",
+              .help = "the unit of the root's position if it differs",
               .or_number = true,
               .check = check_unit},
         reading.root_unit);
@@ -42,23 +42,23 @@ void fields(Visit& visit, MotionReading& reading) {
         reading.root_order);
   visit(Field{.name = "mirror", .help = "the file's space is left-handed"}, reading.mirror);
   visit(Field{.name = "source_rate",
-              .help = "frames a second, such as 120 or 30000/1001, of a file that does not tell or is resampled",
+              .help = "frames a second, such as 120 or 30000/1001, of a file that does not say or is resampled",
               .or_number = true,
               .check = check_rate},
         reading.source_rate);
-  visit(Field{.name = "take", .help = "which of a file's several takes: its name or number; the first where not given"},
+  visit(Field{.name = "take", .help = "which of a file's several takes: its name or number; the first if not given"},
         reading.take);
   visit(Field{.name = "skeleton",
-              .help = "the file of the skeleton where it is one of its own; else it is looked for",
+              .help = "the file of the skeleton if it is a separate one; searched for if not given",
               .is_file = true,
               .type_name = "FILE"},
         reading.skeleton);
 }
 
-/// Empty, or why `text` is not a timecode.
+/// Returns why `text` is not a timecode; empty if it is.
 std::string check_timecode(const std::string& text);
 
-/// Where a face capture begins in its motion. Without either: with it.
+/// When a face capture begins relative to its motion. Without either: at the same time.
 struct FacePlacing {
   std::optional<double> offset_ms;
   std::string timecode;
@@ -74,7 +74,7 @@ void fields(Visit& visit, FacePlacing& face) {
         face.timecode);
 }
 
-/// Of checked fields.
+/// Requires checked fields.
 motion_file::ReadOptions read_options(const MotionReading& reading);
 
 }  // namespace signweave::calls

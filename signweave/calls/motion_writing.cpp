@@ -36,17 +36,17 @@ std::string check_unit(const std::string& text) {
                           : "'" + text + "' is not a unit: cm, m, mm, in, or metres per unit as a number";
 }
 
-bvh::LayoutChanges wishes_of(const BvhWriting& writing) {
-  bvh::LayoutChanges wishes;
+bvh::LayoutChanges layout_changes_of(const BvhWriting& writing) {
+  bvh::LayoutChanges changes;
   if (!writing.order.empty()) {
-    wishes.order.emplace();
-    std::transform(writing.order.begin(), writing.order.end(), wishes.order->begin(), [](char axis) {
+    changes.order.emplace();
+    std::transform(writing.order.begin(), writing.order.end(), changes.order->begin(), [](char axis) {
       return axis == 'X' ? bvh::Channel::x_rotation : axis == 'Y' ? bvh::Channel::y_rotation : bvh::Channel::z_rotation;
     });
   }
-  if (!writing.up.empty()) wishes.up = writing.up == "z" ? bvh::UpAxis::z : bvh::UpAxis::y;
-  if (!writing.unit.empty()) wishes.unit = parse_unit(writing.unit);
-  return wishes;
+  if (!writing.up.empty()) changes.up = writing.up == "z" ? bvh::UpAxis::z : bvh::UpAxis::y;
+  if (!writing.unit.empty()) changes.unit = parse_unit(writing.unit);
+  return changes;
 }
 
 Motion at_rate(Motion motion, const RateWriting& writing, const std::string& where, std::vector<Notice>& notices) {

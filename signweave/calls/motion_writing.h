@@ -11,14 +11,14 @@
 
 namespace signweave::calls {
 
-/// Empty, or why `text` is not a rate that can be written.
+/// Returns why `text` is not a rate that can be written; empty if it is.
 std::string check_rate(const std::string& text);
-/// Empty, or why `text` is not a unit.
+/// Returns why `text` is not a unit; empty if it is.
 std::string check_unit(const std::string& text);
 /// Metres per unit: "cm", "m", "mm", "in", or a number of metres.
 std::optional<double> parse_unit(const std::string& text);
 
-/// How a BVH file is to be written. Empty texts: as the recording's own file was.
+/// How to write a BVH file. Empty texts: as in the recording's own file.
 struct BvhWriting {
   std::string order;
   std::string up;
@@ -28,7 +28,7 @@ struct BvhWriting {
 template <class Visit>
 void fields(Visit& visit, BvhWriting& writing) {
   visit(Field{.name = "bvh_order",
-              .help = "in .bvh: the order of the rotation columns; as in the recording's own file where not given",
+              .help = "in .bvh: the order of the rotation columns; as in the recording's own file if not given",
               .one_of = {"XYZ", "XZY", "YXZ", "YZX", "ZXY", "ZYX"}},
         writing.order);
   visit(Field{.name = "bvh_up", .help = "in .bvh: the vertical axis", .one_of = {"y", "z"}}, writing.up);
@@ -39,10 +39,10 @@ void fields(Visit& visit, BvhWriting& writing) {
         writing.unit);
 }
 
-/// Of checked fields.
-bvh::LayoutChanges wishes_of(const BvhWriting& writing);
+/// Requires checked fields.
+bvh::LayoutChanges layout_changes_of(const BvhWriting& writing);
 
-/// At which rate a motion is to be written. Empty: at its own.
+/// The rate at which to write a motion. Empty: its own.
 struct RateWriting {
   std::string rate;
   std::string method = "slerp";
@@ -51,7 +51,7 @@ struct RateWriting {
 template <class Visit>
 void fields(Visit& visit, RateWriting& writing) {
   visit(Field{.name = "rate",
-              .help = "frames a second of the result; its own where not given",
+              .help = "frames a second of the result; its own if not given",
               .or_number = true,
               .check = check_rate},
         writing.rate);
@@ -63,7 +63,7 @@ void fields(Visit& visit, RateWriting& writing) {
         writing.method);
 }
 
-/// Of checked fields. What was done is told in `notices`, about `where`.
+/// Requires checked fields. Adds what was done to `notices`, about `where`.
 Motion at_rate(Motion motion, const RateWriting& writing, const std::string& where, std::vector<Notice>& notices);
 
 }  // namespace signweave::calls

@@ -6,7 +6,8 @@
 namespace signweave::calls {
 namespace {
 
-/// The frames of a piece that begins at a part of the motion and is so long: two at least, where there are two.
+/// The frames of a piece, given where it begins as a fraction of the motion and its seconds: at least two, if the
+/// motion has two.
 FrameRange piece_of(const Motion& motion, double at, double seconds) {
   const std::int64_t all = motion.frame_count();
   const auto wanted = static_cast<std::int64_t>(std::llround(seconds * motion.rate().hertz()));
@@ -16,7 +17,7 @@ FrameRange piece_of(const Motion& motion, double at, double seconds) {
   return {first, first + length};
 }
 
-/// Every `step`th of some frames, at the rate that they then have, without tracks.
+/// Every `step`th of the frames, at the resulting rate, without tracks.
 Motion thinned(const Motion& motion, FrameRange frames, std::int64_t step) {
   const FrameRate rate = motion.rate();
   Motion thin(motion.shared_skeleton(), {rate.numerator, rate.denominator * step});

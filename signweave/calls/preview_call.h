@@ -11,35 +11,37 @@
 
 namespace signweave::calls {
 
-/// Shows the motion of a file as an import with the same parameters would store it: a piece, for drawing.
+/// Reads a piece of the motion of a file, as an import with the same parameters would store it, for drawing.
 struct PreviewCall {
   std::string file;
   double at = 0.5;
   double seconds = 4;
-  ImportCall import;  ///< what is about annotation and face says nothing here
+  ImportCall import;  ///< parameters about annotation and face are ignored
 };
 
 template <class Visit>
 void fields(Visit& visit, PreviewCall& call) {
   visit(Field{.name = "file", .help = "the motion file", .required = true, .is_file = true}, call.file);
-  visit(Field{.name = "at",
-              .help =
-                  "where the piece begins, as a part of the whole motion; earlier where the motion ends before it does",
-              .shows_default = true,
-              .range = Range{0.0, 1.0}},
-        call.at);
+  visit(
+      Field{
+          .name = "at",
+          .help =
+              "where the piece begins, as a fraction of the whole motion; earlier if the motion ends before the piece",
+          .shows_default = true,
+          .range = Range{0.0, 1.0}},
+      call.at);
   visit(Field{.name = "seconds", .help = "how long the piece is", .shows_default = true, .range = Range{0.1, 10.0}},
         call.seconds);
   fields(visit, call.import);
 }
 
-/// A preview has no more frames a second; those of a faster motion are left out evenly.
+/// The highest rate of a preview, in frames per second; a faster motion is thinned evenly.
 constexpr double kMostPreviewRate = 60;
 
 /// A piece of a motion.
 struct Preview {
   Motion motion;      ///< every `step`th frame of the piece, without tracks, at its own rate
-  FrameRange frames;  ///< of the whole motion: those that the piece covers
+  FrameRange frames;  ///< the frames of the whole motion that the piece covers
   std::int64_t step = 1;
   std::int64_t of_frames = 0;  ///< of the whole motion
   FrameRate rate;              ///< of the whole motion
@@ -48,12 +50,12 @@ struct Preview {
   Declarations declarations;
 };
 
-/// Reads the file as import_recording does, and cuts the piece out: it has at most a few hundred frames. As `inspect`,
-/// it knows nothing of what an earlier import was told. Throws as the file's reader does, as `options_of` and `map_rig`
-/// do, and Error{cancelled}, which progress may throw.
+/// Reads the file as import_recording does, and cuts out the piece, which has at most a few hundred frames. Like
+/// `inspect`, it ignores the settings of an earlier import. Throws what the file's reader, `options_of` and `map_rig`
+/// throw, and Error{cancelled}, which progress may throw.
 Preview run(const PreviewCall& call, const Listener& listener);
 
-/// The part of the motion that it is.
+/// Which part of the motion the preview is.
 template <class Visit>
 void fields(Visit& visit, const Preview& preview) {
   visit.type("PreviewPiece");

@@ -13,7 +13,7 @@ namespace signweave::calls {
 
 namespace {
 
-/// To a tenth of a thousandth: what a float has beyond that is noise.
+/// Rounds to 0.0001: further digits of a float are noise.
 double rounded(float distance) {
   return std::round(static_cast<double>(distance) * 1e4) / 1e4;
 }
@@ -28,8 +28,9 @@ QueryReport found_words(const Database& database, const QueryCall& call, const s
   }
   if (call.explain) {
     report.plan = fmt::format(
-        "No query, but words: {}.\nSigns of that gloss, then those whose spelling differs, sequences of a word each, "
-        "glosses in which\nthe words stand, annotations of other tiers; where there is none, signs of any of them.\n"
+        "Words, not a query: {}.\nFinds signs of that gloss, then of other spellings, sequences of one sign per word, "
+        "glosses that\ncontain the words, and annotations of other tiers; if there are none, signs of any of the "
+        "words.\n"
         "In fact: {} answers.\n",
         fmt::join(words, ", "), report.answers.size());
     return report;

@@ -50,16 +50,16 @@ void fields(Visit& visit, QueryCall& call) {
 
 struct QueryReport {
   std::vector<Segment> answers;
-  std::vector<WordMatch> matches;   ///< [answer], where the text was words only
-  std::vector<Notice> hints;        ///< of an empty answer: what the database does not know
-  std::optional<std::string> plan;  ///< where it was asked for: it is shown instead of the answers
+  std::vector<WordMatch> matches;   ///< [answer], if the text was words only
+  std::vector<Notice> hints;        ///< for an empty answer: the names that the database does not have
+  std::optional<std::string> plan;  ///< if requested; it is shown instead of the answers
 };
 
 /// An answer of a query.
 struct FoundSegment {
   Segment segment;
   std::optional<std::string_view> match;  ///< if the text was words only
-  std::optional<double> distance;         ///< of `like`
+  std::optional<double> distance;         ///< if the query has `like`
 };
 template <class Visit>
 void fields(Visit& visit, const FoundSegment& found) {
@@ -89,8 +89,8 @@ void fields(Visit& visit, const PlanAnswer& answer) {
 }
 using QueryAnswer = std::variant<std::vector<FoundSegment>, PlanAnswer>;
 
-/// A text that no query is made of is taken for words to find, where it has no operators or is a gloss itself.
-/// Throws SyntaxError, Error{cancelled} when the time is over.
+/// A text that is not a query is taken as words to find, if it has no operators or is a gloss itself. Throws
+/// SyntaxError, and Error{cancelled} when the time is up.
 QueryReport run(const Database& database, const QueryCall& call);
 
 QueryAnswer answer_of(const QueryReport& report);

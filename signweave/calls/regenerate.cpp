@@ -16,7 +16,7 @@ namespace {
 std::optional<Milliseconds> milliseconds_in(std::string_view text) {
   std::int64_t ms = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), ms);
-  // No more than a day's times any frame rate can be counted.
+  // The limit leaves room for the product with any frame rate.
   constexpr std::int64_t kMost = std::int64_t{1} << 40;
   if (error != std::errc() || end != text.data() + text.size() || ms < -kMost || ms > kMost) return std::nullopt;
   return Milliseconds(ms);
@@ -36,14 +36,14 @@ std::optional<TimeSpan> span_in(std::string_view text) {
 }
 
 [[noreturn]] void refuse_replaced(const std::string& recording) {
-  throw Error(ErrorCode::conflict, fmt::format("'{}' was replaced meanwhile: ask again", recording));
+  throw Error(ErrorCode::conflict, fmt::format("'{}' was replaced in the meantime: try again", recording));
 }
 
 std::string text_of(TimeSpan span) {
   return fmt::format("{}..{}", span.begin.count(), span.end.count());
 }
 
-/// Joints and translations that are wanted, by their place in a pose.
+/// The indices in a pose of the requested rotations and translations.
 struct Wanted {
   std::vector<std::size_t> rotations, translations;
 };

@@ -23,8 +23,8 @@ using testing::HasSubstr;
 using testing_database::recording_of;
 using testing_database::TestFolder;
 
-/// A recording of 3 s at 100 frames a second with annotated transitions, of which frame 0 is at 500 ms of annotation
-/// time: the signer sways, and every joint turns.
+/// A recording of 3 s at 100 frames per second with annotated transitions, whose frame 0 is at 500 ms of annotation
+/// time. The signer sways, and every joint rotates.
 Recording swaying(const std::string& name, int seed, const std::vector<std::string>& glosses) {
   Recording recording = recording_of(name, seed, glosses);
   Motion& motion = recording.motion->motion;
@@ -41,7 +41,7 @@ Recording swaying(const std::string& name, int seed, const std::vector<std::stri
   return recording;
 }
 
-/// Two of them, with a scalar track in the first.
+/// A database of two such recordings, the first with a scalar track.
 const Database& database() {
   static const TestFolder folder;
   static const std::unique_ptr<const Database> made = [] {
@@ -80,7 +80,7 @@ bool same_pose(PoseView a, PoseView b) {
          std::memcmp(a.translations.data(), b.translations.data(), a.translations.size_bytes()) == 0;
 }
 
-/// The greatest turn of any joint from one frame to the next.
+/// The largest rotation of any joint from one frame to the next.
 float greatest_turn(const Motion& motion) {
   float greatest = 0;
   for (std::int64_t frame = 1; frame < motion.frame_count(); ++frame) {
@@ -93,7 +93,7 @@ float greatest_turn(const Motion& motion) {
   return greatest;
 }
 
-/// How far the root goes at most from one frame to the next.
+/// The largest distance the root moves from one frame to the next.
 float greatest_shift(const Motion& motion) {
   float greatest = 0;
   for (std::int64_t frame = 1; frame < motion.frame_count(); ++frame) {
@@ -105,7 +105,7 @@ float greatest_shift(const Motion& motion) {
 /// Every rule below holds for each method.
 class Regenerate : public testing::TestWithParam<std::string> {};
 
-TEST_P(Regenerate, ChangesNoFrameOutsideOfTheGapAndJoinsThereWithoutAJump) {
+TEST_P(Regenerate, ChangesNoFrameOutsideTheGapsAndJoinsWithoutAJump) {
   const Motion plain = *exported({}).motion;
   const Exported made = exported({.regenerate = {"1500..1900", "2500..2800"}, .transition = GetParam()});
   EXPECT_THAT(made.regenerated, ElementsAre(FrameRange{100, 140}, FrameRange{200, 230}));
@@ -126,7 +126,7 @@ TEST_P(Regenerate, ChangesNoFrameOutsideOfTheGapAndJoinsThereWithoutAJump) {
   EXPECT_LE(greatest_shift(*made.motion), 2 * greatest_shift(plain));
 }
 
-TEST_P(Regenerate, MakesWhatTheEvaluationMakes) {
+TEST_P(Regenerate, GeneratesTheSameMotionAsTheEvaluation) {
   const std::string name = "one";
   const std::shared_ptr<const Contents> contents = database().contents();
   Motion motion = database().read(name);
@@ -142,7 +142,7 @@ TEST_P(Regenerate, MakesWhatTheEvaluationMakes) {
                            .rig = &rig_of_whole,
                            .model = method.fill->needs == Needs::spans ? others.model.get() : nullptr});
   const Regenerator::Made expected = regenerator.make(*method.fill, {whole.motion, gap, gap.size()});
-  // What is exported need not hold all that the method looks at.
+  // The exported span need not contain all frames that the method reads.
   for (const auto& [from, to] : {std::pair<std::int64_t, std::int64_t>{500, 3500}, {1470, 1930}}) {
     const Exported made = exported({.from = from, .to = to, .regenerate = {"1500..1900"}, .transition = GetParam()});
     for (std::int64_t frame = 0; frame < gap.size(); ++frame) {
@@ -154,17 +154,17 @@ TEST_P(Regenerate, MakesWhatTheEvaluationMakes) {
 INSTANTIATE_TEST_SUITE_P(EveryMethod, Regenerate, testing::ValuesIn(transition_names()),
                          [](const auto& test) { return test.param; });
 
-TEST(RegenerateOf, TheDefaultMethodWhereNoneIsNamed) {
+TEST(RegenerateOf, UsesTheDefaultMethodIfNoneIsNamed) {
   const Exported made = exported({.regenerate = {"1500..1900"}});
   EXPECT_EQ(made.regenerated_by, &transition_methods().front());
   const Exported named = exported({.regenerate = {"1500..1900"}, .transition = std::string(made.regenerated_by->name)});
   EXPECT_TRUE(same_bits(*made.motion, *named.motion));
 }
 
-TEST(RegenerateOf, OneSpanSeesNothingOfWhatAnotherCutsOut) {
+TEST(RegenerateOf, ASpanIgnoresTheFramesThatAnotherCutsOut) {
   const Exported both = exported({.regenerate = {"1950..2100", "1700..1900"}, .transition = "hermite"});
   EXPECT_THAT(both.regenerated, ElementsAre(FrameRange{120, 140}, FrameRange{145, 160}));
-  // To the first gap the recording ends where the second begins.
+  // For the first gap, the recording ends where the second gap begins.
   const Motion until = database().read("one", {0, 145});
   const Motion whole = database().read("one");
   const SignerModel signer = model_of(whole);
@@ -181,7 +181,7 @@ TEST(RegenerateOf, OneSpanSeesNothingOfWhatAnotherCutsOut) {
   EXPECT_FALSE(same_pose(unlike.poses.pose(10), both.motion->pose(130)));
 }
 
-TEST(RegenerateOf, JointsLeavesTheOthersAtRest) {
+TEST(RegenerateOf, JointsNotRequestedStayAtRest) {
   const ExportCall arm{.joints = "RightArm"};
   const Motion plain = *exported(arm).motion;
   ExportCall call = arm;
@@ -202,7 +202,7 @@ TEST(RegenerateOf, JointsLeavesTheOthersAtRest) {
   EXPECT_TRUE(differs);
 }
 
-TEST(RegenerateOf, TracksGoOverFromOneBorderToTheOther) {
+TEST(RegenerateOf, TracksAreBlendedFromOneBorderToTheOther) {
   const Motion plain = *exported({}).motion;
   const Motion made = *exported({.regenerate = {"1500..1900"}}).motion;
   ASSERT_EQ(made.tracks().size(), 1u);
@@ -217,8 +217,8 @@ TEST(RegenerateOf, TracksGoOverFromOneBorderToTheOther) {
   }
 }
 
-TEST(RegenerateOf, TheCapturedSpansOfTheRecordingItselfAreNotUsed) {
-  // The same but for its annotation, so that nothing of it is a captured span: what is made is the same.
+TEST(RegenerateOf, CapturedSpansOfTheSameRecordingAreNotUsed) {
+  // The same recording with other annotation, so that it has no captured spans: the result is the same.
   const TestFolder folder;
   Database::create(folder / "db", {});
   {
@@ -232,7 +232,7 @@ TEST(RegenerateOf, TheCapturedSpansOfTheRecordingItselfAreNotUsed) {
   const Motion with = *exported(call).motion;
   EXPECT_TRUE(std::ranges::equal(without.rotations(), with.rotations(),
                                  [](const auto& a, const auto& b) { return a.coeffs() == b.coeffs(); }));
-  // Nothing else teaches it: it says so.
+  // No other recording to learn from: a notice says so.
   const ExportCall alone{.recording = "two", .regenerate = {"1500..1900"}, .transition = "recorded"};
   const Exported kriged = run(other, alone, {"out.bvh"});
   ASSERT_EQ(kriged.notices.size(), 1u);
@@ -246,7 +246,7 @@ TEST(RegenerateOf, AnotherRateIsSampledFromTheRegeneratedMotion) {
   EXPECT_TRUE(same_pose(made.motion->pose(60), whole.pose(120)));
 }
 
-TEST(RegenerateOf, ItsReportSaysWhatWasMade) {
+TEST(RegenerateOf, TheReportListsTheRegeneratedSpans) {
   const Exported made = exported({.from = 1000, .to = 2500, .regenerate = {"1500..1900"}, .transition = "sine"});
   const auto report = answer_json<nlohmann::json>(made);
   EXPECT_EQ(report["frames"], 150);
@@ -255,7 +255,7 @@ TEST(RegenerateOf, ItsReportSaysWhatWasMade) {
   EXPECT_FALSE(answer_json(exported({})).contains("regenerated"));
 }
 
-TEST(RegenerateOf, FaultsAreOneLine) {
+TEST(RegenerateOf, FaultMessagesAreOneLine) {
   EXPECT_EQ(check_span("1200..1800"), "");
   EXPECT_EQ(check_span("-300..-100"), "");
   for (const char* text : {"", "1200", "1200..", "..1800", "1200-1800", "1.5..2.5", "1200..1800..2000", "a..b",
@@ -280,8 +280,8 @@ TEST(RegenerateOf, FaultsAreOneLine) {
         << second;
   }
   EXPECT_EQ(export_fault({.regenerate = {"1500..1900", "1930..2000"}}), "no fault");
-  EXPECT_THAT(export_fault({.transition = "sine"}), HasSubstr("'transition' says how 'regenerate' makes"));
-  EXPECT_THAT(export_fault({.regenerate = {"1500..1900"}}, "out.eaf"), HasSubstr("ask for a file of motion"));
+  EXPECT_THAT(export_fault({.transition = "sine"}), HasSubstr("'transition' applies only to 'regenerate'"));
+  EXPECT_THAT(export_fault({.regenerate = {"1500..1900"}}, "out.eaf"), HasSubstr("request a motion file"));
 }
 
 }  // namespace

@@ -33,7 +33,7 @@ void fields(Visit& visit, const PartAnswer& part) {
   visit(AnswerField{.name = "offset", .help = "metres, in the joint's space; of tips only"}, part.offset);
 }
 
-/// The parts of the body that are known.
+/// The known parts of the body.
 struct RigAnswer {
   std::string convention;  ///< "MotionBuilder", "CMU", …; empty if none fits
   bool sides_swapped = false;

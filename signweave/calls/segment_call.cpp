@@ -9,15 +9,15 @@ namespace signweave::calls {
 
 Segmented propose(const Motion& motion, const RigMap& rig, const std::string& where) {
   if (motion.frame_count() == 0) {
-    throw Error(ErrorCode::bad_input, where + ": no frames, so there is nothing to tell phases from");
+    throw Error(ErrorCode::bad_input, where + ": no frames, so no phases can be proposed");
   }
   Segmented made{.proposed = {}, .length = motion.duration()};
   try {
     made.proposed = propose_phases(upper_body_of(motion, rig));
-  } catch (const Error& error) {  // the library knows parts of the body, the user a file
+  } catch (const Error& error) {  // the library's message names parts of the body, the user needs the file
     throw Error(error.code(), fmt::format("{}: {}", where, error.what()), error.remedies());
   }
-  // The segmenter's frames are longer than most motions' own, so the last one may reach past the end.
+  // The segmenter's frames are longer than those of most motions, so the last one may extend past the end.
   for (std::vector<ProposedPhase>& hand : made.proposed.hands) {
     for (ProposedPhase& one : hand) one.end = std::min(one.end, made.length);
   }

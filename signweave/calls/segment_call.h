@@ -24,17 +24,17 @@ void fields(Visit& visit, SegmentCall& call) {
         call.recording);
 }
 
-/// What is proposed, and for what.
+/// The proposed phases, and the length of the motion.
 struct Segmented {
   ProposedPhases proposed;
   Seconds length{0};  ///< of the motion
 };
 
-/// Proposals for a motion; `where` stands before the text of an error and in notices. Throws Error{bad_input} for a
-/// motion without frames, Error{not_found} where a hand, the head or the trunk is not found.
+/// Proposes phases for a motion; `where` prefixes error texts and appears in notices. Throws Error{bad_input} for a
+/// motion without frames, Error{not_found} if a hand, the head or the trunk is not found.
 Segmented propose(const Motion& motion, const RigMap& rig, const std::string& where);
 
-/// The same for a stored recording.
+/// Proposes phases for a stored recording.
 Segmented run(const Database& database, const SegmentCall& call);
 
 struct ProposedPhaseAnswer {
@@ -60,7 +60,7 @@ void fields(Visit& visit, const ProposedHands& hands) {
   visit(AnswerField{.name = "right"}, hands.sides[static_cast<std::size_t>(Side::right)]);
 }
 struct ProposalsAnswer {
-  std::optional<std::string> recording;  ///< what it is about: a stored recording, or
+  std::optional<std::string> recording;  ///< the source: a stored recording, or
   std::optional<std::string> file;       ///< a file
   std::string_view proposed;
   ProposedHands hands;

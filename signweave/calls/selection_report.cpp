@@ -8,12 +8,11 @@
 namespace signweave::calls {
 
 std::string describe(const JoinWeights& weights) {
-  if (weights.pairs == 0) return "the defaults, for no two neighbours were measured";
+  if (weights.pairs == 0) return "the defaults, because no two neighbours were measured";
   if (weights.wins <= weights.default_wins) {
     return fmt::format(
         "the defaults, by which recorded neighbours win {:.0f} % of {} with other tokens ({}); nothing learned from "
-        "them "
-        "does better",
+        "them does better",
         100 * weights.wins, counted(weights.comparisons, "comparison"), counted(weights.pairs, "pair"));
   }
   return fmt::format(

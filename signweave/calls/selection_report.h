@@ -10,7 +10,7 @@
 
 namespace signweave {
 
-/// The values of an array by the names of its indices.
+/// Pairs the values of an array with the names of their indices.
 template <class Term, class Values>
 std::vector<std::pair<std::string, double>> by_name(const Values& values) {
   std::vector<std::pair<std::string, double>> named;
@@ -20,7 +20,7 @@ std::vector<std::pair<std::string, double>> by_name(const Values& values) {
   return named;
 }
 
-/// What was learned of joins, and how well it distinguishes recorded neighbours from other pairs.
+/// The learned join weights, and how well they distinguish recorded neighbours from other pairs.
 template <class Visit>
 void fields(Visit& visit, const JoinWeights& weights) {
   visit.type("Weights");
@@ -34,7 +34,7 @@ void fields(Visit& visit, const JoinWeights& weights) {
   visit(AnswerField{.name = "default_wins"}, weights.default_wins);
 }
 
-/// What captured movements taught of transitions.
+/// What was learned about transitions from captured movements.
 template <class Visit>
 void fields(Visit& visit, const ResidualModel& residuals) {
   visit.type("TaughtTransitions", "what captured movements taught of transitions (docs/synthesis.md)");
@@ -105,7 +105,7 @@ void fields(Visit& visit, const PlaceAnswer& place) {
   visit(AnswerField{.name = "join_cost"}, place.join_cost);
 }
 
-/// Every candidate of every place, its costs and why. Requires a synthesis made with explanations.
+/// Every candidate of every place, with its costs and their terms. Requires a synthesis made with explanations.
 std::vector<PlaceAnswer> places_of(const Synthesized& made);
 
 /// As one line: "learned from 92 pairs of recorded neighbours, …".

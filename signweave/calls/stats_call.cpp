@@ -12,7 +12,7 @@ namespace signweave::calls {
 
 namespace {
 
-/// What tells how the hands move in the transitions of a recording; none where nothing was measured.
+/// A function that returns how the hands move in a transition of the recording; empty if nothing was measured.
 MotionOf motion_of(const Database& database, const Contents& contents, std::uint32_t recording,
                    const std::vector<Sign>& signs) {
   auto features = std::make_shared<const RecordingFeatures>(database.features(contents.recordings[recording].name));
@@ -37,7 +37,7 @@ Counted run(const Database& database, const StatsCall& call, const Listener& lis
   const std::shared_ptr<const Contents> held = database.contents();
   const Contents& contents = *held;
   const std::string& recording = call.recording;
-  if (!recording.empty()) contents.at(recording);  // throws where there is none
+  if (!recording.empty()) contents.at(recording);  // throws if there is none
   Counted counted;
   for (std::size_t i = 0; i < contents.recordings.size(); ++i) {
     const std::string& name = contents.recordings[i].name;
@@ -47,8 +47,8 @@ Counted run(const Database& database, const StatsCall& call, const Listener& lis
     MotionOf hands;
     try {
       hands = motion_of(database, contents, static_cast<std::uint32_t>(i), counted.signs.back());
-    } catch (const Error& error) {  // durations can be told all the same
-      listener.blame(error.what());
+    } catch (const Error& error) {  // durations can still be reported
+      listener.report_fault(error.what());
     }
     counted.transitions.push_back(recorded_transitions(name, counted.signs.back(), hands));
     counted.all.insert(counted.all.end(), counted.transitions.back().begin(), counted.transitions.back().end());
@@ -111,7 +111,7 @@ std::string plot_of(const Counted& counted, const std::string& where) {
   }
   if (panels.empty()) {
     throw Error(ErrorCode::not_found, where +
-                                          ": not written, for no transition is recorded: signs must follow each "
+                                          ": not written, because no transition is recorded: signs must follow each "
                                           "other, with phases or with gaps between them");
   }
   return transition_plot(panels);

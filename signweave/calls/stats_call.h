@@ -10,7 +10,7 @@
 
 namespace signweave::calls {
 
-/// Of runs of glosses: the longest that is counted.
+/// The length of the longest runs of glosses that are counted.
 inline constexpr std::size_t kLongestNgram = 8;
 
 /// Durations of the recorded transitions.
@@ -33,7 +33,7 @@ void fields(Visit& visit, StatsCall& call) {
         call.ngrams);
 }
 
-/// What the annotation of some recordings holds.
+/// The signs and transitions that were counted.
 struct Counted {
   std::vector<std::string> names;
   std::vector<std::vector<Sign>> signs;                      ///< [recording]
@@ -41,16 +41,16 @@ struct Counted {
   std::vector<RecordedTransition> all;
 };
 
-/// A recording whose features are damaged is told of; its durations are counted all the same. Throws Error{not_found}.
+/// A recording whose features are damaged is reported; its durations are still counted. Throws Error{not_found}.
 Counted run(const Database& database, const StatsCall& call, const Listener& listener);
 
 StatisticsAnswer answer_of(const StatsCall& call, const Counted& counted);
-/// Rows for CSV; at most one of pairs, glosses and ngrams may be asked for (csv_fault).
+/// Rows for CSV; at most one of pairs, glosses and ngrams may be requested (see csv_fault).
 Rows csv_of(const StatsCall& call, const Counted& counted);
-/// Empty, or why this is not one table.
+/// Returns why the request is not a single table; empty if it is.
 std::string csv_fault(const StatsCall& call);
-/// Figure 4 of the paper as an SVG document; `where` begins the text of Error{not_found} where no transition is
-/// recorded.
+/// Figure 4 of the paper as an SVG document. Throws Error{not_found}, its text prefixed with `where`, if no transition
+/// is recorded.
 std::string plot_of(const Counted& counted, const std::string& where);
 
 std::vector<NamedSummary> summaries_of(const Counted& counted);

@@ -13,7 +13,7 @@ std::string ms(double value) {
   return fmt::format("{:.0f}", value);
 }
 
-/// Half the confidence interval: "± 37"; "-" where one value tells nothing of it.
+/// Half the confidence interval: "± 37"; "-" for fewer than two values.
 std::string interval_of(const Distribution& of) {
   return of.count < 2 ? "-" : ms((of.mean_high - of.mean_low) / 2);
 }
@@ -49,7 +49,7 @@ std::vector<std::string> complete(const Distribution& of) {
   return joined(std::move(row), {number(of.most), number(of.histogram.begin), number(of.histogram.width), counts});
 }
 
-/// One row for each measure of each part. `name` stands before each.
+/// Adds one row for each measure of each part, each prefixed with `name`.
 void add_complete(const TransitionSummary& summary, const std::vector<std::string>& name, Rows& rows) {
   const auto row = [&](const char* part, const char* hand, const char* measure, const Distribution& of) {
     if (of.count > 0) rows.push_back(joined(joined(name, {part, hand, measure}), complete(of)));

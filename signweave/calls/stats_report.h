@@ -6,7 +6,7 @@
 #include "signweave/features/gloss_stats.h"
 #include "signweave/features/transition_stats.h"
 
-/// Statistics as rows for people, as complete rows for CSV, and as JSON. Durations are milliseconds.
+/// Statistics as rows for display and as complete rows for CSV. Durations are milliseconds.
 namespace signweave::calls {
 
 using Rows = std::vector<std::vector<std::string>>;
@@ -18,15 +18,15 @@ struct NamedSummary {
 };
 
 Rows transition_rows(const std::vector<NamedSummary>& summaries);
-/// How the hands go: displacement, path and average velocity of each hand over the whole transition (the paper, section
-/// 5.1); the head alone where nothing was measured.
+/// How the hands move: displacement, path and average velocity of each hand over the whole transition (the paper,
+/// section 5.1); only the heading if nothing was measured.
 Rows hand_rows(const std::vector<NamedSummary>& summaries);
 Rows pair_rows(const std::vector<PairStats>& pairs);
 Rows gloss_rows(const std::vector<GlossStats>& glosses);
 Rows ngram_rows(const std::vector<NgramStats>& ngrams);
 
-/// Complete: a row for each part (whole, retraction, preparation) and measure (duration; for each hand displacement,
-/// path, speed where they are known), with every number of its distribution.
+/// Complete rows: one for each part (whole, retraction, preparation) and measure (duration; for each hand displacement,
+/// path and speed if known), with every number of its distribution.
 Rows transition_csv(const std::vector<NamedSummary>& summaries);
 Rows pair_csv(const std::vector<PairStats>& pairs);
 Rows gloss_csv(const std::vector<GlossStats>& glosses);

@@ -102,7 +102,7 @@ std::optional<FrameRange> parse_frames(const std::string& text) {
   return frames;
 }
 
-/// Part of a score: nothing but motion.
+/// Renders part of a score: only motion.
 Synthesized run_part(const Database& database, const Score& score, FrameRange frames) {
   OpenScore open(database, score);
   Synthesized made;
@@ -136,9 +136,8 @@ Synthesized run(const Database& database, const Score& score, const ScoreCall& c
   if (!frames) return synthesize(database, score);
   for (const std::string_view whole : {"eaf", "svg", "json"}) {
     if (std::ranges::find(formats, whole) == formats.end()) continue;
-    throw Error(
-        ErrorCode::bad_input,
-        fmt::format("{} is of a whole score: leave frames out, or ask for a format of motion such as bvh", whole));
+    throw Error(ErrorCode::bad_input,
+                fmt::format("{} describes a whole score: omit frames, or request a motion format such as bvh", whole));
   }
   return run_part(database, score, *frames);
 }
@@ -176,7 +175,7 @@ void show_on(Synthesized& made, const SignerStance& stance, const CharacterFile&
 FileContent content_of(const Synthesized& made, const SynthesisChoices& choices, const std::string& title,
                        const SharedCharacter& character) {
   FileContent content = signweave::content_of(made.result);
-  content.layout_changes = wishes_of(choices.bvh);
+  content.layout_changes = layout_changes_of(choices.bvh);
   content.title = title;
   content.signing_space = choices.signing_space;
   if (character) {

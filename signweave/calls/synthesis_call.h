@@ -30,7 +30,7 @@ void fields(Visit& visit, const Timings& timings) {
 
 namespace signweave::calls {
 
-/// How signing is made: what `sign` and `edit` share.
+/// How signing is generated: the parameters that `sign` and `edit` share.
 struct SynthesisChoices {
   std::string transition = std::string(transition_methods().front().name);
   std::string duration = "fitted";
@@ -47,17 +47,17 @@ struct SynthesisChoices {
 /// The names of the transition methods, and all of them as a help text.
 std::vector<std::string> transition_names();
 std::string transition_help();
-/// Empty, or what is wrong with the value.
+/// Each returns what is wrong with the value; empty if it is valid.
 std::string check_duration(const std::string& text);
 std::string check_junction(const std::string& text);
 
-/// What says how the signing goes, but for its frame rate.
+/// The fields that determine the signing, except its frame rate.
 template <class Visit>
 void signing_fields(Visit& visit, SynthesisChoices& choices) {
   visit(Field{.name = "transition", .help = transition_help(), .shows_default = true, .one_of = transition_names()},
         choices.transition);
   visit(Field{.name = "duration",
-              .help = "of each transition: fitted (told from what the hands have to do, where that beats the mean), "
+              .help = "of each transition: fitted (predicted from what the hands have to do, if that beats the mean), "
                       "corpus (its mean), or milliseconds",
               .shows_default = true,
               .or_number = true,
@@ -87,7 +87,7 @@ template <class Visit>
 void fields(Visit& visit, SynthesisChoices& choices) {
   signing_fields(visit, choices);
   visit(Field{.name = "rate",
-              .help = "frames a second of the result; the highest of its sources where not given",
+              .help = "frames a second of the result; the highest of its sources if not given",
               .or_number = true,
               .check = check_rate},
         choices.rate);
@@ -96,7 +96,7 @@ void fields(Visit& visit, SynthesisChoices& choices) {
   visit(Field{.name = "explain", .help = "show candidates, costs and junctions"}, choices.explain);
 }
 
-/// Makes new signing from glosses.
+/// Generates new signing from glosses.
 struct SignCall {
   std::string utterance;
   std::string missing = "explain";
@@ -121,7 +121,7 @@ void fields(Visit& visit, SignCall& call) {
   fields(visit, call.how);
 }
 
-/// Changes a recording's words.
+/// Replaces or swaps signs of a recording.
 struct EditCall {
   std::string recording;
   std::vector<std::string> replace;
@@ -142,8 +142,8 @@ void fields(Visit& visit, EditCall& call) {
   fields(visit, call.how);
 }
 
-/// Renders a score, or some of its frames. Nothing is chosen, and so none of SynthesisChoices but how it is shown and
-/// written.
+/// Renders a score, or some of its frames. Nothing is selected, so of SynthesisChoices it has only those for display
+/// and writing.
 struct ScoreCall {
   std::string frames;
   bool signing_space = false;
@@ -151,7 +151,7 @@ struct ScoreCall {
   BvhWriting bvh;
 };
 
-/// Empty, or why `text` is no "FROM..TO" of frames.
+/// Returns why `text` is not "FROM..TO" in frames; empty if it is.
 std::string check_frames(const std::string& text);
 
 inline Field frames_field() {
@@ -168,19 +168,19 @@ void fields(Visit& visit, ScoreCall& call) {
   fields(visit, call.bvh);
 }
 
-/// How what it makes is shown and written.
+/// The choices for displaying and writing the result.
 SynthesisChoices choices_of(const ScoreCall& call);
-/// Throws what `synthesize` of a score throws, Error{bad_input} where the frames are not in the score, or one of
-/// `formats` ("eaf", "bvh", …) has more than motion and only some of the frames are asked for. Of those there is
-/// the motion alone: no signs, clips, junctions or sources.
+/// If only some frames are requested, the result has only motion: no signs, clips, junctions or sources. Throws what
+/// `synthesize` of a score throws, and Error{bad_input} if the frames are not in the score, or if only some are
+/// requested and one of `formats` ("eaf", "bvh", …) holds more than motion.
 Synthesized run(const Database& database, const Score& score, const ScoreCall& call,
                 const std::vector<std::string>& formats);
 
-/// Of checked fields. Throws Error{bad_input} where a junction is named twice.
+/// Requires checked fields. Throws Error{bad_input} if a junction is named twice.
 SynthesisOptions options_of(const SynthesisChoices& choices);
 
-/// `most_frames`: a result that would have more is refused. Both throw what `synthesize` and the parsers of utterances
-/// and edits throw; an edit without a change is Error{bad_input}.
+/// A result that would have more than `most_frames` is refused. Both throw what `synthesize` and the parsers of
+/// utterances and edits throw, and Error{bad_input} for an edit without a change.
 Synthesized run(const Database& database, const SignCall& call, std::int64_t most_frames = kMostFrames);
 Synthesized run(const Database& database, const EditCall& call, std::int64_t most_frames = kMostFrames);
 std::string title_of(const SignCall& call);
@@ -210,13 +210,13 @@ void fields(Visit& visit, const SynthesisAnswer& answer) {
 
 SynthesisAnswer report_of(const Synthesized& made, const SynthesisChoices& choices);
 
-/// The recording whose signer the result has, for stance_of.
+/// The recording that the result takes its signer from, for stance_of.
 const RecordingInfo& signer_of(const Synthesized& made);
-/// Puts the result on a character.
+/// Retargets the result to a character.
 void show_on(Synthesized& made, const SignerStance& stance, const CharacterFile& character);
 
-/// How the result is written: the layout of its source's file without that file's oddities, and what heads a sheet.
-/// `character`: whose joints it has; none: those of its source.
+/// The content to write: the result, the layout of its source's file without that file's oddities, and the title of a
+/// contact sheet. `character`: its joints are the result's; null: the source's.
 FileContent content_of(const Synthesized& made, const SynthesisChoices& choices, const std::string& title,
                        const SharedCharacter& character);
 

@@ -6,8 +6,8 @@
 
 namespace signweave::calls {
 
-/// Rows as aligned columns; the first row is the heading. Columns whose cells are all numbers go to the right. Widths
-/// are counted in letters as a terminal shows them.
+/// Rows as aligned columns; the first row is the heading. Columns whose cells are all numbers are aligned right. Widths
+/// are counted in terminal columns.
 std::string format_table(const std::vector<std::vector<std::string>>& rows);
 
 /// Rows as CSV (RFC 4180).

@@ -3,7 +3,7 @@
 namespace signweave::calls {
 namespace {
 
-/// Converts positions in a text from bytes to characters; positions must be asked for in ascending order.
+/// Converts positions in a text from bytes to characters; positions must be requested in ascending order.
 class CharacterCounter {
  public:
   explicit CharacterCounter(std::string_view text) : text_(text) {}

@@ -64,7 +64,7 @@ template <class Visit>
 void fields(Visit& visit, LabelsCall& call) {
   visit(Field{.name = "tier", .help = "id of the tier", .required = true}, call.tier);
   visit(Field{.name = "limit",
-              .help = "of more labels those that most annotations have",
+              .help = "at most so many labels: those that most annotations have",
               .shows_default = true,
               .range = Range{std::size_t{1}, std::size_t{1'000'000}}},
         call.limit);

@@ -43,7 +43,7 @@ void fields(Visit& visit, XPathCall& call) {
 }
 
 /// Throws SyntaxError for a wrong expression, Error{not_found} for an unknown recording or one without annotation,
-/// Error{cancelled} when the time is over.
+/// Error{cancelled} when the time is up.
 std::vector<XPathAnswer> run(const Database& database, const XPathCall& call);
 
 /// A node, or the value of an expression that is not a set of nodes.

@@ -9,7 +9,7 @@
 namespace signweave::catalogue {
 namespace {
 
-// 2: the first; 3: the head has a tolerance, recordings a rig's names and defects.
+// Version 2 is the first; since version 3 the head has a tolerance, and recordings have rig names and defects.
 constexpr std::uint8_t kFirstVersion = 2;
 
 Bytes key_of(char what) {
@@ -148,7 +148,7 @@ std::vector<Defect> decode_defects(ByteReader& in) {
     defect.value = in.number<float>();
     defect.text = in.text();
     const bool in_order = 0 <= defect.frames.begin && defect.frames.begin <= defect.frames.end;
-    if (defect.joint < kNoJoint || !in_order || !std::isfinite(defect.value)) in.fail("a defect that cannot be");
+    if (defect.joint < kNoJoint || !in_order || !std::isfinite(defect.value)) in.fail("an impossible defect");
     defects.push_back(std::move(defect));
   }
   return defects;
@@ -182,7 +182,7 @@ Head read_head(const kv::ReadTransaction& snapshot) {
   head.access_mode.kind = in.number<AccessMode::Kind>();
   head.access_mode.frames_per_packet = in.number<std::uint32_t>();
   if (version >= 3) head.tolerance = in.number<float>();
-  if (in.left() > 0) head.documents = in.number<DocumentStorage>();  // databases made before it have none
+  if (in.left() > 0) head.documents = in.number<DocumentStorage>();  // absent in older databases
   if (head.documents > DocumentStorage::node) in.fail("a storage of documents that does not exist");
   in.finish();
   return head;
@@ -233,14 +233,14 @@ RecordingInfo read_recording(const kv::ReadTransaction& snapshot, std::uint32_t 
     info.defects = decode_defects(in);
   }
   if (info.motion && facts.face_file.empty()) facts.own_tracks = static_cast<std::uint32_t>(info.motion->tracks.size());
-  if (in.left() > 0) {  // recordings made before there were other formats than BVH have none of it
+  if (in.left() > 0) {  // absent in recordings stored when BVH was the only motion format
     facts.face_offset = Seconds(in.number<double>());
     facts.reading = in.text();
     facts.own_tracks = in.number<std::uint32_t>();
     facts.declarations = decode_declarations(in);
     if (facts.own_tracks > (info.motion ? info.motion->tracks.size() : 0)) in.fail("more tracks than the motion has");
   }
-  if (in.left() > 0) {  // notices stored before they had remedies have none
+  if (in.left() > 0) {  // absent in recordings stored before notices had remedies
     for (Notice& notice : info.notices) {
       for (std::size_t n = in.count(8); n > 0; --n) {
         std::string parameter = in.text();

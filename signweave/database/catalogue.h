@@ -23,8 +23,8 @@ inline constexpr std::uint8_t kVersion = kDatabaseLayout;
 bool is_key(ByteSpan key) noexcept;
 
 struct Head {
-  int layout = kVersion;              ///< in which it was read; it is written in the newest
-  std::uint64_t changes = 0;          ///< number of commits: a reader with another number has to read again
+  int layout = kVersion;              ///< of the stored head; a head is always written in the newest layout
+  std::uint64_t changes = 0;          ///< number of commits; a reader that cached another number must read again
   std::uint64_t next_generation = 1;  ///< generations are never reused
   std::uint32_t recordings = 0;
   AccessMode access_mode;                                 ///< for motions to be stored
@@ -35,7 +35,7 @@ struct Head {
 /// Motions that a crash may have left behind, or that are to be erased because no recording refers to them.
 using SweepList = std::vector<motion_db::StoredMotion>;
 
-/// The key of the head, and of the recording in a slot.
+/// Return the key of the head, and of the recording in a slot.
 Bytes head_key();
 Bytes slot_key(std::uint32_t slot);
 

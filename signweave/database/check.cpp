@@ -17,8 +17,8 @@
 namespace signweave {
 namespace {
 
-/// Looks at one recording's document: that it is there and reads (else it throws), and gives the segments beside it,
-/// and motion and segments the features.
+/// Checks one recording's document: it exists and is readable (else this throws), the stored segments are those of the
+/// document, and the stored features are those of motion and segments.
 void check_document(const kv::ReadTransaction& snapshot, const RecordingInfo& info, bool motion_sound,
                     CheckListener& listener) {
   const std::string source = semantic_db::read_document(snapshot, info.document, info.name);
@@ -45,27 +45,27 @@ void check_document(const kv::ReadTransaction& snapshot, const RecordingInfo& in
                     "replacing its motion",
                     info.name));
   }
-  if (!motion_sound) return;  // what is measured of a damaged motion tells nothing
+  if (!motion_sound) return;  // features measured from a damaged motion prove nothing
   const std::string fault = fault_of_features(snapshot, info, stored);
   if (!fault.empty()) listener.fault(fault);
 }
 
-/// What was learned is what the corpus teaches; where recordings are damaged nothing is compared.
+/// Checks that learning from the corpus gives the stored record again. Not compared if a recording is damaged.
 void check_learned(const Database& database, const kv::ReadTransaction& snapshot, CheckListener& listener) {
-  const char* mend = "signing learns it again; import any file again to store it";
+  const char* repair = "signing learns it again; import any file again to store it";
   try {
     const std::optional<semantic_db::Learned> stored = semantic_db::read_learned(snapshot);
     if (!stored || stored->changes != catalogue::read_head(snapshot).changes) return;
     const Snapshot now = database.snapshot();
     if (!now.contents().faults.empty() || nearly_same(*stored, learn_from(now))) return;
-    listener.fault(fmt::format("what was learned: it is not what the recordings teach; {}", mend));
+    listener.fault(fmt::format("what was learned: it does not match the recordings; {}", repair));
   } catch (const Error& error) {
     if (error.code() != ErrorCode::corrupt) throw;
-    listener.fault(fmt::format("what was learned: the stored record is damaged; {}", mend));
+    listener.fault(fmt::format("what was learned: the stored record is damaged; {}", repair));
   }
 }
 
-/// The segment tables say what the recordings' own segments do.
+/// Checks that the segment tables contain the recordings' own segments.
 void check_tables(const std::shared_ptr<const kv::ReadTransaction>& snapshot, CheckListener& listener) {
   const auto fault = [&](std::string_view what) {
     listener.fault(fmt::format("segment tables: {}; the next import or removal rebuilds them", what));
@@ -74,7 +74,7 @@ void check_tables(const std::shared_ptr<const kv::ReadTransaction>& snapshot, Ch
     const std::optional<Segments> stored = semantic_db::read_tables(snapshot);
     std::vector<std::string> faults;
     const Segments made(tables::table_of_all(*snapshot, faults));
-    if (!stored || !faults.empty()) return;  // none yet; or what is damaged is told of already
+    if (!stored || !faults.empty()) return;  // no tables yet, or the damage is already reported
     const auto whole = [](const Segments& segments) {
       std::vector<SegmentTable::RecordingRef> parts;
       for (std::uint32_t i = 0; i < segments.recording_count(); ++i) parts.push_back(segments.part(i));
@@ -82,7 +82,7 @@ void check_tables(const std::shared_ptr<const kv::ReadTransaction>& snapshot, Ch
     };
     const SegmentTable one = whole(*stored);
     const SegmentTable other = whole(made);
-    if (!std::ranges::equal(one.bytes(), other.bytes())) fault("they are not what the recordings' segments are");
+    if (!std::ranges::equal(one.bytes(), other.bytes())) fault("they differ from the recordings' segments");
   } catch (const Error& error) {
     if (error.code() != ErrorCode::corrupt) throw;
     fault("a stored record is damaged");
@@ -125,7 +125,7 @@ void check_slots(const Database& database, std::uint32_t first, CheckListener& l
         }
       }
       if (info.document != 0) check_document(*snapshot, info, motion_sound, listener);
-    } catch (const Error& error) {  // one damaged recording does not hide the others
+    } catch (const Error& error) {  // continue with the other recordings
       listener.fault(error.what());
     }
   }
@@ -134,7 +134,7 @@ void check_slots(const Database& database, std::uint32_t first, CheckListener& l
   try {
     catalogue::read_sweep_list(*snapshot);
   } catch (const Error&) {
-    listener.fault("sweep list: it is damaged; no recording needs it, and opening the database for a change mends it");
+    listener.fault("sweep list: it is damaged; no recording needs it, and opening the database for writing repairs it");
   }
 }
 

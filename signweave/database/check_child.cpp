@@ -17,31 +17,31 @@
 namespace signweave {
 namespace {
 
-// The child tells what it sees in messages: u8 kind, u32 number, text (u32 length, bytes).
+// The child reports its findings in messages: u8 kind, u32 number, text (u32 length, bytes).
 enum class Message : std::uint8_t {
   begin,    ///< number: recordings
-  slot,     ///< number, name: whose turn it is
-  alive,    ///< still at it
+  slot,     ///< number, name: the recording that is checked next
+  alive,    ///< the check is still running
   usage,    ///< text: kind (a text), u64 entries, u64 bytes
   fault,    ///< text
-  refused,  ///< number: code of the Error that opening threw; its text
+  refused,  ///< number: code of the Error that the child threw; text: its message
   done,
 };
 
-constexpr int kPatience = 120'000;  // milliseconds without a word: damaged pages may lead in a circle
+constexpr int kPatience = 120'000;  // milliseconds without a message: damaged pages may form an endless loop
 
 void write_all(int pipe, ByteSpan bytes) {
   while (!bytes.empty()) {
     const ssize_t written = ::write(pipe, bytes.data(), bytes.size());
     if (written < 0 && errno == EINTR) continue;
-    if (written <= 0) ::_exit(1);  // nobody listens
+    if (written <= 0) ::_exit(1);  // the parent has closed the pipe
     bytes = bytes.subspan(static_cast<std::size_t>(written));
   }
 }
 
-class Tell : public CheckListener {
+class PipeListener : public CheckListener {
  public:
-  explicit Tell(int pipe) : pipe_(pipe) {}
+  explicit PipeListener(int pipe) : pipe_(pipe) {}
 
   void begin(std::uint32_t recordings) override { send(Message::begin, recordings, {}); }
   void slot(std::uint32_t number, const std::string& name) override { send(Message::slot, number, name); }
@@ -59,37 +59,37 @@ class Tell : public CheckListener {
   int pipe_;
 };
 
-/// What a child does with the database, and tells.
-using Task = std::function<void(const Database& database, Tell& tell)>;
+/// The work of a child: it reads the database and reports to the listener.
+using Task = std::function<void(const Database& database, PipeListener& listener)>;
 
 [[noreturn]] void run_child(const std::filesystem::path& folder, const Task& task, int pipe) {
   for (const int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGABRT, SIGILL}) ::signal(signal, SIG_DFL);
-  Tell tell(pipe);
+  PipeListener listener(pipe);
   try {
     const Database database(folder, kv::Access::read_only);
-    task(database, tell);
-    tell.send(Message::done, 0, {});
+    task(database, listener);
+    listener.send(Message::done, 0, {});
   } catch (const Error& error) {
-    tell.send(Message::refused, static_cast<std::uint32_t>(error.code()), error.what());
+    listener.send(Message::refused, static_cast<std::uint32_t>(error.code()), error.what());
   } catch (const std::exception& error) {
-    tell.fault(fmt::format("{}: {}", folder.string(), error.what()));
-    tell.send(Message::done, 0, {});
+    listener.fault(fmt::format("{}: {}", folder.string(), error.what()));
+    listener.send(Message::done, 0, {});
   }
-  ::_exit(0);  // without destructors: what damaged pages left in memory must not be touched again
+  ::_exit(0);  // skips destructors, which could read memory that damaged pages corrupted
 }
 
-/// What one child reported before it ended.
+/// The report of one child.
 struct Reported {
   bool ended_well = false;
   std::uint32_t recordings = 0;
-  std::optional<std::uint32_t> slot;  ///< whose turn it was at last
+  std::optional<std::uint32_t> slot;  ///< the last recording whose check began
   std::string name;
   std::vector<std::string> faults;
   std::vector<Usage> usage;
-  std::string death;  ///< how it died
+  std::string death;  ///< how the child ended, if not well
 };
 
-/// Reads messages until the pipe ends; false where the child fell silent.
+/// Reads messages until the pipe ends; false if the child sent none for kPatience.
 bool listen(int pipe, Reported& reported, const Database::Progress& progress) {
   Bytes bytes;
   for (;;) {
@@ -147,8 +147,9 @@ bool listen(int pipe, Reported& reported, const Database::Progress& progress) {
 Reported ask_child(const std::filesystem::path& folder, const Task& task, const Database::Progress& progress) {
   int ends[2];
   if (::pipe2(ends, O_CLOEXEC) != 0) {
-    throw Error(ErrorCode::io, fmt::format("{}: no pipe to a checking process: {}; close some files and try again",
-                                           folder.string(), std::strerror(errno)));
+    throw Error(ErrorCode::io,
+                fmt::format("{}: cannot make a pipe to a checking process: {}; close some files and try again",
+                            folder.string(), std::strerror(errno)));
   }
   const pid_t child = ::fork();
   if (child == 0) {
@@ -158,7 +159,7 @@ Reported ask_child(const std::filesystem::path& folder, const Task& task, const 
   ::close(ends[1]);
   if (child < 0) {
     ::close(ends[0]);
-    throw Error(ErrorCode::io, fmt::format("{}: no checking process can be made: {}; end some and try again",
+    throw Error(ErrorCode::io, fmt::format("{}: cannot start a checking process: {}; end some processes and try again",
                                            folder.string(), std::strerror(errno)));
   }
   struct Reaped {
@@ -178,14 +179,14 @@ Reported ask_child(const std::filesystem::path& folder, const Task& task, const 
     }
   } reaped{.child = child, .pipe = ends[0]};
   Reported reported;
-  const bool spoke = listen(ends[0], reported, progress);
-  if (!spoke) ::kill(child, SIGKILL);
+  const bool answered = listen(ends[0], reported, progress);
+  if (!answered) ::kill(child, SIGKILL);
   reaped.wait();
   if (reported.ended_well) return reported;
-  if (!spoke) {
-    reported.death = "does not come to an end";
+  if (!answered) {
+    reported.death = "does not end";
   } else if (WIFSIGNALED(reaped.status)) {
-    reported.death = fmt::format("ends the program ({})", ::strsignal(WTERMSIG(reaped.status)));
+    reported.death = fmt::format("crashes the program ({})", ::strsignal(WTERMSIG(reaped.status)));
   } else {
     reported.death = fmt::format("ends the program (status {})", WEXITSTATUS(reaped.status));
   }
@@ -197,7 +198,9 @@ Reported ask_child(const std::filesystem::path& folder, const Task& task, const 
 CheckResult check_in_child(const std::filesystem::path& folder, const Database::Progress& progress) {
   CheckResult result;
   for (std::uint32_t first = 0;;) {
-    const Task check_the_rest = [first](const Database& database, Tell& tell) { check_slots(database, first, tell); };
+    const Task check_the_rest = [first](const Database& database, PipeListener& listener) {
+      check_slots(database, first, listener);
+    };
     Reported reported = ask_child(folder, check_the_rest, progress);
     result.recordings = std::max(result.recordings, reported.recordings);
     result.faults.insert(result.faults.end(), reported.faults.begin(), reported.faults.end());
@@ -212,21 +215,21 @@ CheckResult check_in_child(const std::filesystem::path& folder, const Database::
 }
 
 std::vector<Usage> usage_in_child(const std::filesystem::path& folder) {
-  const Task measure = [](const Database& database, Tell& tell) {
+  const Task measure = [](const Database& database, PipeListener& listener) {
     for (const Usage& one : database.usage()) {
       ByteWriter out;
       out.text(one.kind);
       out.number(one.entries);
       out.number(one.bytes);
-      tell.send(Message::usage, 0, text_of(out.bytes()));
+      listener.send(Message::usage, 0, text_of(out.bytes()));
     }
   };
   Reported reported = ask_child(folder, measure, {});
   if (reported.ended_well) return reported.usage;
   throw Error(
       ErrorCode::corrupt,
-      fmt::format("{}: looking at all of it {}: the engine's own pages are damaged; 'signweave check' tells which "
-                  "recordings are, restore it from a copy",
+      fmt::format("{}: reading all of it {}: the engine's own pages are damaged; 'signweave check' reports which "
+                  "recordings are affected; restore the database from a copy",
                   folder.string(), reported.death));
 }
 

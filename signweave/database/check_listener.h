@@ -5,7 +5,7 @@
 
 #include "signweave/database/database.h"
 
-/// Internal to `database`: receives what a check finds, while it runs.
+/// Internal to `database`: receives the findings of a check while it runs.
 namespace signweave {
 
 class CheckListener {

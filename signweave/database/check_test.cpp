@@ -50,7 +50,7 @@ TEST_P(CheckTest, ASoundDatabaseHasNoFault) {
   EXPECT_TRUE(std::is_sorted(seen.begin(), seen.end()));
 }
 
-TEST_P(CheckTest, WhatCannotBeOpenedIsTheSameErrorAsWithoutAChild) {
+TEST_P(CheckTest, AMissingDatabaseIsTheSameErrorAsWithoutAChild) {
   try {
     check_in_child(folder_ / "nowhere");
     FAIL() << "nothing was thrown";
@@ -83,7 +83,7 @@ TEST_P(CheckTest, AChildReportsTheFaultsThatTheProgramItselfWouldReport) {
   EXPECT_EQ(check_in_child(path()).faults, here);
 }
 
-TEST(CheckLmdb, APageThatIsNotThereIsOneFaultOfOneRecording) {
+TEST(CheckLmdb, AMissingPageIsOneFaultOfOneRecording) {
   TestFolder folder;
   const fs::path file = folder / "db" / "data.mdb";
   Database::create(folder / "db", {.access_mode = {AccessMode::Kind::full, 0}});
@@ -99,7 +99,7 @@ TEST(CheckLmdb, APageThatIsNotThereIsOneFaultOfOneRecording) {
     });
   }
   ASSERT_EQ(keys.size(), 1u);
-  // A value of many pages: behind its key stands the number of the first.
+  // The value takes many pages; the number of the first follows its key.
   std::string bytes(fs::file_size(file), '\0');
   std::fstream stream(file, std::ios::in | std::ios::out | std::ios::binary);
   stream.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
@@ -107,7 +107,7 @@ TEST(CheckLmdb, APageThatIsNotThereIsOneFaultOfOneRecording) {
   int places = 0;
   for (std::size_t at = bytes.find(key); at != std::string::npos; at = bytes.find(key, at + 1), ++places) {
     stream.seekp(static_cast<std::streamoff>(at + key.size() + 5));
-    stream.put(1);  // page 2^40 and some
+    stream.put(1);  // beyond page 2^40
   }
   stream.close();
   ASSERT_GT(places, 0);
@@ -116,7 +116,7 @@ TEST(CheckLmdb, APageThatIsNotThereIsOneFaultOfOneRecording) {
                                 HasSubstr("the store is damaged; restore it from a copy"))));
 }
 
-TEST(CheckLmdb, DamageToPagesIsReportedAndWhatLiesBehindItIsLookedAt) {
+TEST(CheckLmdb, DamageToPagesIsReportedAndTheCheckContinuesAfterIt) {
   TestFolder folder;
   make_database(folder / "db", "lmdb");
   std::mt19937 random(3);
@@ -125,7 +125,7 @@ TEST(CheckLmdb, DamageToPagesIsReportedAndWhatLiesBehindItIsLookedAt) {
   for (int round = 0; round < 40; ++round) {
     fs::remove_all(folder / "copy");
     fs::copy(folder / "db", folder / "copy");
-    {  // many bytes, so that some rounds hit what leads to other pages; the first two pages are the file's head
+    {  // many bytes, so that some rounds hit references to other pages; the first two pages are the file's head
       std::fstream file(folder / "copy" / "data.mdb", std::ios::in | std::ios::out | std::ios::binary);
       for (int i = 0; i < 60; ++i) {
         const std::streamoff page = 2 + static_cast<std::streamoff>(random()) % (size / 4096 - 2);

@@ -30,7 +30,7 @@ const RecordingInfo& Contents::at(std::string_view name) const {
 
 namespace {
 
-/// An engine that serves one process alone does not know which that is.
+/// Opens the store. If another process has it open, adds its announced name to the error, which the engine lacks.
 std::unique_ptr<kv::KvStore> open_store(const std::filesystem::path& folder, kv::Access access) {
   try {
     return kv::open(folder, access);
@@ -44,7 +44,7 @@ std::unique_ptr<kv::KvStore> open_store(const std::filesystem::path& folder, kv:
 }  // namespace
 
 Database::Database(const std::filesystem::path& folder, kv::Access access) : folder_(folder), access_(access) {
-  // The store first: it tells whether there is a database at all, before a lock file is made.
+  // The store first: without a database this throws before a lock file is created.
   store_ = open_store(folder, access);
   catalogue::read_head(*store_->read());
   if (access == kv::Access::read_write) {
@@ -82,7 +82,7 @@ std::shared_ptr<const Contents> Database::contents_of(
 
   auto made = std::make_shared<Contents>();
   made->recordings.reserve(head.recordings);
-  // A damaged record leaves out its own recording, never the others.
+  // A damaged record excludes its own recording only.
   for (std::uint32_t slot = 0; slot < head.recordings; ++slot) {
     try {
       made->recordings.push_back(catalogue::read_recording(snapshot, slot));
@@ -95,7 +95,7 @@ std::shared_ptr<const Contents> Database::contents_of(
   const auto same = [](const RecordingInfo& info, const std::string& name) { return info.name == name; };
   if (std::ranges::equal(made->recordings, segments->recordings(), same)) {
     made->segments = *segments;
-  } else {  // a damaged entry's recording is in the tables yet, or what is damaged is the tables
+  } else {  // the tables still contain a recording whose entry is damaged, or are damaged themselves
     made->faults.clear();
     made->segments = Segments(tables::table_of_all(snapshot, made->faults));
   }
@@ -106,7 +106,7 @@ std::shared_ptr<const Contents> Database::contents_of(
     transitions.insert(transitions.end(), found.begin(), found.end());
   }
   made->transitions = summarize(transitions);
-  if (contents_ && contents_at_ > head.changes) return made;  // another thread has seen a newer state: it stays
+  if (contents_ && contents_at_ > head.changes) return made;  // keep the newer state that another thread has cached
   contents_ = made;
   contents_at_ = head.changes;
   joins_.clear();
@@ -141,7 +141,7 @@ std::optional<std::uint32_t> Database::slot_of(const kv::ReadTransaction& snapsh
       try {
         slots_.push_back(catalogue::read_recording(snapshot, slot).name);
       } catch (const Error&) {
-        slots_.emplace_back();  // damaged: no name is empty, so nothing finds it; `check` tells
+        slots_.emplace_back();  // damaged: no name is empty, so no search finds it; `check` reports it
       }
     }
     slots_at_ = head.changes;
@@ -170,12 +170,12 @@ const motion_db::StoredMotion& motion_of(const RecordingInfo& info) {
 RecordingInfo Database::recording_in(const kv::ReadTransaction& snapshot, std::string_view name) const {
   const std::optional<std::uint32_t> slot = slot_of(snapshot, name);
   if (slot) return catalogue::read_recording(snapshot, *slot);
-  contents()->at(name);  // the error with near matches
+  contents()->at(name);  // throws the error with near matches
   throw Error(ErrorCode::conflict, fmt::format("{}: was added just now; try again", printable(name)));
 }
 
-// Each of these reads the catalogue and the data it names in one snapshot: what another process does meanwhile is not
-// seen.
+// Each of the following reads the catalogue and the data it refers to in one snapshot, so changes that another process
+// makes meanwhile are not visible.
 
 Motion Database::read(std::string_view name, FrameRange frames, const JointSet& joints,
                       motion_db::ReadCost* cost) const {

@@ -80,12 +80,12 @@ class Snapshot {
   /// changes. Throws what `motion` throws.
   std::shared_ptr<const SignerModel> signer(const RecordingInfo& recording) const;
 
-  /// Returns what was measured of the phases of `contents().recordings[recording]`, as Database::features; only the
+  /// Returns the measures of the phases of `contents().recordings[recording]`, as Database::features does; only the
   /// reason if the record is damaged.
   RecordingFeatures features(std::size_t recording) const;
 
-  /// Returns what was learned from the corpus (see Database::learn): as stored; learned now if nothing is stored, or it
-  /// is damaged, of another version or of a much older state of the database.
+  /// Returns the result of learning from the corpus (see Database::learn): the stored record, or learned now if that is
+  /// missing, damaged, of another version or of a much older state of the database.
   std::shared_ptr<const semantic_db::Learned> learned() const;
 
  private:
@@ -131,7 +131,7 @@ struct Storage {
 ///
 /// A change of a recording is atomic for readers, which are never blocked. One process at a time may open a database
 /// read_write. Const functions may be called from several threads at once; the others from one.
-/// More than fifteen members: what is cached of the newest state is next to the mutex that guards it.
+/// More than fifteen members: the cached data of the newest state is next to the mutex that guards it.
 class Database {
  public:
   using Progress = std::function<void(double fraction)>;
@@ -150,17 +150,17 @@ class Database {
 
   const std::filesystem::path& folder() const noexcept { return folder_; }
 
-  /// If it is open read_write: sets the name by which errors in other processes refer to this one, such as "signweave
-  /// serve at http://…".
+  /// If open read_write, sets the name by which errors in other processes refer to this one, such as "signweave serve
+  /// at http://…".
   void announce(std::string_view who) noexcept;
 
-  /// Returns its current content; read again only after a change.
+  /// Returns the current content; read again only after a change.
   std::shared_ptr<const Contents> contents() const;
 
-  /// Returns the same with the motions.
+  /// Returns the current state with the motions.
   Snapshot snapshot() const;
 
-  /// Returns what is known of one recording, without reading the others; none if there is none of this name.
+  /// Returns the catalogue entry of one recording, without reading the others; none if no recording has this name.
   std::optional<RecordingInfo> info(std::string_view name) const;
 
   /// Stores a recording. If one of the same name exists, the given halves (motion, annotation), clock, signer and
@@ -170,7 +170,7 @@ class Database {
   /// `known` is not what the database holds, Error{io}.
   void put(const Recording& recording, const Progress& progress = {}, const KnownRecordings& known = {});
 
-  /// Throws Error{conflict} unless the database holds exactly this under these names.
+  /// Throws Error{conflict} unless the database holds exactly these recordings under these names.
   void require_unchanged(const KnownRecordings& known) const;
 
   /// Removes a recording. One with a damaged catalogue entry has no name: it is removed as "catalogue entry N", as
@@ -185,15 +185,15 @@ class Database {
   bool relayout(std::string_view name, const Storage& to, const Progress& progress = {});
 
   /// Measures the phases of a recording again if the stored measures are missing, damaged or of another version; false
-  /// if they are current. Every other change of a recording measures by itself.
+  /// if they are current. Not needed after other changes, which measure themselves.
   bool measure(std::string_view name);
 
-  /// False if `measure` would measure. Throws Error{not_found}.
+  /// True if the measures are current, so that `measure` would do nothing. Throws Error{not_found}.
   bool is_measured(std::string_view name) const;
 
-  /// Learns from the current corpus the weights for choosing signs by their joins and the durations of transitions, and
-  /// stores them; false if what is stored is recent enough: at most a sixteenth of all changes came after it. Call it
-  /// once after some changes: without it, each signing learns again.
+  /// Learns from the current corpus the weights for choosing signs by their joins, the durations of transitions and the
+  /// captured movements, and stores them; false if the stored record is recent enough: at most a sixteenth of all
+  /// changes came after it. Call it once after some changes: without it, each signing learns again.
   bool learn();
 
   /// Sets how motions are stored from now on.
@@ -230,11 +230,11 @@ class Database {
   /// Returns one annotation of a recording's document by its id (StoredAnnotation), or none. In `node` storage nothing
   /// else of the document is read. Throws Error{not_found} for an unknown recording or one without annotation.
   std::optional<StoredAnnotation> annotation(std::string_view recording, std::string_view id) const;
-  /// Returns those of a tier, in document order; none if there is no such tier. Throws likewise.
+  /// Returns the annotations of a tier, in document order; none if there is no such tier. Throws likewise.
   std::vector<StoredAnnotation> tier(std::string_view recording, std::string_view tier) const;
 
-  /// Evaluates an XPath expression over the documents; by recording name, then in document order. In `node` storage
-  /// only the records that it needs are read, if a part of the document is sufficient. Throws Error{not_found} for an
+  /// Evaluates an XPath expression over the documents; answers by recording name, then in document order. In `node`
+  /// storage, if a part of the document is sufficient, only its records are read. Throws Error{not_found} for an
   /// unknown recording, Error{cancelled} after the deadline.
   std::vector<XPathAnswer> xpath(const xpath::Expression& expression, const XPathLimits& limits = {}) const;
 
@@ -247,8 +247,8 @@ class Database {
   DocumentStorage document_storage() const;
   void set_document_storage(DocumentStorage storage);
 
-  /// Returns what was measured of a recording's phases: one entry for each of its phase rows in the segment table, in
-  /// their order. Measured now if nothing of this version is stored.
+  /// Returns the measures of a recording's phases: one entry for each of its phase rows in the segment table, in their
+  /// order. Measured now if nothing of this version is stored.
   RecordingFeatures features(std::string_view name) const;
 
   /// Returns the current records: for code that copies them, such as a backup.
@@ -260,7 +260,7 @@ class Database {
   /// Returns how motions are stored from now on: access mode, and tolerance in metres.
   AccessMode access_mode() const;
   float tolerance() const;
-  /// Returns the layout of its catalogue, kDatabaseLayout or an older one; the next change writes the newest.
+  /// Returns the layout of the catalogue, kDatabaseLayout or an older one; the next change writes the newest.
   int layout() const;
 
  private:
@@ -281,7 +281,7 @@ class Database {
   /// Writes a motion under a new generation, which is on the sweep list until a change makes it visible; verifies it.
   motion_db::StoredMotion write_motion(const Motion& motion, AccessMode mode, float tolerance,
                                        const Progress& progress);
-  /// To be called after change number `changes`, which gave a slot this name: saves reading the names again.
+  /// Caches the name of a slot, set by change number `changes`, so that the names need not be read again.
   void remember_slot(std::uint32_t slot, const std::string& name, std::uint64_t changes);
   /// Erases the motions on the sweep list.
   void sweep();

@@ -16,9 +16,9 @@
 #include "signweave/semantic_db/table_store.h"
 #include "signweave/semantic_db/trace_store.h"
 
-// What changes a database; storing a recording is in put.cpp. A motion is written under a new generation first, where
-// nobody looks; one transaction then makes it visible, and what it replaces goes onto the sweep list in the same
-// transaction. So a crash leaves the old or the new, and things to sweep.
+// Changes of a database; database_put.cpp stores a recording. A motion is first written under a new generation, which
+// no recording refers to; then one transaction makes it visible and puts the replaced motion on the sweep list. So a
+// crash leaves either the old or the new motion, and leftovers to sweep.
 
 namespace signweave {
 
@@ -46,7 +46,7 @@ void Database::require_writable() const {
   if (access_ != kv::Access::read_write) {
     throw Error(ErrorCode::conflict, folder_.string() + ": was opened for reading only");
   }
-  // What is known of the state before the change keeps that state in the file, where its space could be used again.
+  // Cached data holds snapshots of the old state, whose space in the file could not be reused.
   const std::lock_guard guard(mutex_);
   contents_.reset();
   segments_.reset();
@@ -54,9 +54,10 @@ void Database::require_writable() const {
 
 namespace {
 
-/// Throws Error{io} unless what was stored reads back as the motion, to the bit.
+/// Throws Error{io} unless the stored motion reads back bit for bit.
 void verify(const kv::ReadTransaction& snapshot, const motion_db::StoredMotion& stored, const Motion& motion) {
-  // Some thousand frames at a time, in whole packets: none is read twice, nor the motion held twice where it is cut.
+  // Some thousand frames at a time, in whole packets: no packet is read twice, and a motion cut into packets of frames
+  // is not held in memory twice.
   constexpr std::int64_t kFrames = 4096;
   const std::int64_t p = stored.mode.frames_per_packet;
   const std::int64_t step = p > 0 ? (kFrames + p - 1) / p * p : stored.frames;
@@ -102,8 +103,8 @@ motion_db::StoredMotion Database::write_motion(const Motion& motion, AccessMode 
     catalogue::Head head = catalogue::read_head(*transaction);
     stored.generation = head.next_generation++;
     catalogue::write_head(*transaction, head);
-    // On the sweep list before its first packet is written, and off it when it becomes visible: a crash in between
-    // leaves only what the next open sweeps away.
+    // The motion is on the sweep list before its first packet is written and until it becomes visible: the next open
+    // sweeps what a crash in between leaves.
     catalogue::SweepList list = catalogue::read_sweep_list(*transaction);
     list.push_back(stored);
     catalogue::write_sweep_list(*transaction, list);
@@ -115,7 +116,7 @@ motion_db::StoredMotion Database::write_motion(const Motion& motion, AccessMode 
   } catch (...) {
     try {
       sweep();
-    } catch (const Error&) {  // the disk may be full: what is left is swept at the next open
+    } catch (const Error&) {  // the disk may be full: the next open sweeps
     }
     throw;
   }
@@ -124,7 +125,7 @@ motion_db::StoredMotion Database::write_motion(const Motion& motion, AccessMode 
 
 void Database::remember_slot(std::uint32_t slot, const std::string& name, std::uint64_t changes) {
   const std::lock_guard guard(mutex_);
-  if (slots_at_ != changes - 1) return;  // a reader has looked again already
+  if (slots_at_ != changes - 1) return;  // another thread has already read the names again
   if (slot == slots_.size()) slots_.emplace_back();
   slots_[slot] = name;
   slots_at_ = changes;
@@ -150,7 +151,7 @@ bool Database::relayout(std::string_view name, const Storage& to, const Progress
     const std::shared_ptr<const Skeleton> skeleton = motion_db::read_skeleton(*snapshot, old);
     AccessMode mode = to.mode.value_or(old.mode);
     if (!to.mode && old.mode == motion_db::fitted({old.mode.kind, 0}, *skeleton, old.tolerance)) {
-      mode.frames_per_packet = 0;  // it was the default, and is to be so for other packets
+      mode.frames_per_packet = 0;  // it was the default, so the new packets get their own default
     }
     if (motion_db::fitted(mode, *skeleton, tolerance) == old.mode && tolerance == old.tolerance) return false;
     Motion motion = motion_db::read(*snapshot, old, skeleton, {0, old.frames});
@@ -209,7 +210,7 @@ void Database::remove(std::string_view name) {
   const std::unique_ptr<kv::WriteTransaction> transaction = store_->write();
   std::optional<std::uint32_t> slot = slot_of(*transaction, name);
   const bool damaged = !slot && (slot = damaged_slot(*transaction, name)).has_value();
-  if (!slot) contents()->at(name);  // the error with near matches
+  if (!slot) contents()->at(name);  // throws the error with near matches
   if (!slot) throw Error(ErrorCode::not_found, fmt::format("no recording '{}' in this database", printable(name)));
   catalogue::Head head = catalogue::read_head(*transaction);
   const RecordingInfo info = damaged ? RecordingInfo{} : catalogue::read_recording(*transaction, *slot);
@@ -231,7 +232,7 @@ void Database::remove(std::string_view name) {
   tables::remove(*transaction, info.name);
   transaction->commit();
   sweep();
-  if (damaged) sweep_unnamed();  // the entry did not tell what it named
+  if (damaged) sweep_unnamed();  // a damaged entry does not say which records were its own
 }
 
 void Database::sweep() {
@@ -241,7 +242,7 @@ void Database::sweep() {
       list = catalogue::read_sweep_list(*store_->read());
     } catch (const Error& error) {
       if (error.code() != ErrorCode::corrupt) throw;
-      sweep_unnamed();  // what the damaged list held cannot be told: look at everything
+      sweep_unnamed();  // the damaged list cannot be read, so search all records
       const std::unique_ptr<kv::WriteTransaction> transaction = store_->write();
       catalogue::write_sweep_list(*transaction, {});
       transaction->commit();
@@ -251,8 +252,8 @@ void Database::sweep() {
     try {
       motion_db::erase(*store_, list.back());
     } catch (const Error& error) {
-      // What damaged pages hold cannot be erased. It is let go of: nobody sees it, and it must not keep the database
-      // from being changed for ever.
+      // A motion on damaged pages cannot be erased. It is dropped from the list: no recording refers to it, and it must
+      // not block every later change.
       if (error.code() != ErrorCode::corrupt) throw;
     }
     const std::unique_ptr<kv::WriteTransaction> transaction = store_->write();
@@ -274,7 +275,7 @@ void Database::sweep_unnamed() {
         if (info.motion) named.insert(info.motion->generation);
         if (info.document != 0) named.insert(info.document);
       } catch (const Error&) {
-        return;  // what a damaged entry names cannot be told, and may be wanted yet
+        return;  // records of a damaged entry cannot be identified and may still be needed
       }
     }
   }
@@ -282,7 +283,7 @@ void Database::sweep_unnamed() {
     const std::vector<std::uint64_t> listed = semantic_db::table_generations(*store_->read());
     named.insert(listed.begin(), listed.end());
   } catch (const Error& error) {
-    if (error.code() != ErrorCode::corrupt) throw;  // then nobody can find the tables
+    if (error.code() != ErrorCode::corrupt) throw;  // no reader can find the tables then
   }
   std::vector<Bytes> unnamed;
   store_->visit([&](ByteSpan key, std::size_t) {
@@ -290,7 +291,7 @@ void Database::sweep_unnamed() {
     if (!generation) generation = semantic_db::generation_of(key);
     if (generation && !named.contains(*generation)) unnamed.emplace_back(key.begin(), key.end());
   });
-  constexpr std::size_t kMostErased = 512;  // in one transaction: see motion_db
+  constexpr std::size_t kMostErased = 512;  // in one transaction, as in motion_db
   for (std::size_t i = 0; i < unnamed.size(); i += kMostErased) {
     const std::unique_ptr<kv::WriteTransaction> transaction = store_->write();
     for (std::size_t k = i; k < std::min(i + kMostErased, unnamed.size()); ++k) transaction->erase(unnamed[k]);

@@ -8,7 +8,7 @@
 #include "signweave/semantic_db/documents.h"
 #include "signweave/xpath/evaluate.h"
 
-// What a database answers from its annotation documents themselves, and how it stores them.
+// Queries of the annotation documents themselves, and how a database stores them.
 
 namespace signweave {
 namespace {
@@ -53,7 +53,7 @@ std::vector<XPathAnswer> Database::xpath(const xpath::Expression& expression, co
       try {
         RecordingInfo info = catalogue::read_recording(*snapshot, slot);
         if (info.document != 0) recordings.push_back(std::move(info));
-      } catch (const Error& error) {  // a damaged entry: `check` tells of it
+      } catch (const Error& error) {  // a damaged entry: `check` reports it
         if (error.code() != ErrorCode::corrupt) throw;
       }
     }
@@ -78,8 +78,8 @@ std::vector<XPathAnswer> Database::xpath(const xpath::Expression& expression, co
 
 bool Database::relayout_document(std::string_view name, DocumentStorage storage) {
   require_writable();
-  // One transaction: a crash leaves the old records or the new. What is in the database is the same, so it does not
-  // count as a change.
+  // One transaction: a crash leaves the old records or the new. The content of the database stays the same, so this
+  // does not count as a change.
   const std::unique_ptr<kv::WriteTransaction> transaction = store_->write();
   const RecordingInfo info = recording_in(*transaction, name);
   if (info.document == 0 || semantic_db::storage_of(*transaction, info.document) == storage) return false;

@@ -16,12 +16,12 @@
 #include "signweave/semantic_db/table_store.h"
 #include "signweave/semantic_db/trace_store.h"
 
-// Storing a recording: what can fail because of the input fails before anything is written; then the motion is written,
-// still invisible; one transaction makes everything visible.
+// Stores a recording. Whatever can fail because of the input fails before anything is written. Then the motion is
+// written, still invisible, and one transaction makes everything visible.
 
 namespace signweave {
 
-/// What `put` computes before its transaction.
+/// The data that `put` computes before its transaction.
 struct PreparedRecording {
   std::string source;         ///< of the document
   std::string specification;  ///< of the document; may be empty
@@ -64,7 +64,7 @@ StorableMotion prepare_motion(const Recording& recording, const catalogue::Head&
   const SignerModel model = model_of(*motion, prepared.rig);
   prepared.defects = find_defects(*motion, model.rig);  // of the motion as given
   StorableMotion storable{.changed = {}, .tolerance = recording.motion->rounded_within};
-  // A stored motion keeps one hemisphere from frame to frame, so that whatever joins it need not look at every frame.
+  // A stored motion keeps one hemisphere from frame to frame, so that code that joins clips need not check each frame.
   if (!keeps_hemisphere(*motion)) {
     storable.changed = *motion;
     keep_hemisphere(*storable.changed);
@@ -76,7 +76,7 @@ StorableMotion prepare_motion(const Recording& recording, const catalogue::Head&
     storable.changed = motion_db::quantise(*motion, head.tolerance, part_of(progress, 0, 0.5));
     motion = &*storable.changed;
   }
-  // The motion is measured as it will be read, so that measuring it again gives the same.
+  // The motion is measured as it will be read, so that measuring it again gives the same values.
   const SignerModel read_model = storable.changed ? model_of(*motion, prepared.rig) : model;
   prepared.features = measure_phases(*motion, read_model, semantic_db::phase_spans(prepared.segments), recording.clock);
   prepared.features->noise = capture_noise(*motion);
@@ -87,13 +87,13 @@ StorableMotion prepare_motion(const Recording& recording, const catalogue::Head&
 /// The defects of a stored motion under other rig names.
 std::vector<Defect> defects_under(const RigNames& rig, const Motion& motion, const RecordingInfo& before) {
   std::vector<Defect> defects = find_defects(motion, map_rig(motion, rig));
-  for (const Defect& defect : before.defects) {  // flips are no longer in the stored motion, but were in the given one
+  for (const Defect& defect : before.defects) {  // only the given motion had flips, the stored one has none
     if (defect.kind == DefectKind::quaternion_flip) defects.push_back(defect);
   }
   return defects;
 }
 
-/// Sets what is stored of a recording apart from its halves. `info` still names the previous files.
+/// Sets everything that is stored of a recording except its halves. `info` still names the previous files.
 void describe_in(RecordingInfo& info, const Recording& recording) {
   info.name = recording.name;
   info.signer = recording.signer;
@@ -139,7 +139,7 @@ void put_document(kv::WriteTransaction& transaction, const AnnotationPart& part,
   semantic_db::put(transaction, info.document, prepared.segments);
 }
 
-/// Stores what is measured of a recording with a document: another document, clock or rig has other measures.
+/// Stores the measures of a recording with a document. They depend on document, clock and rig.
 void put_measures(kv::WriteTransaction& transaction, const RecordingInfo& info, bool new_document,
                   const PreparedRecording& prepared) {
   const std::optional<HandTrace>& trace = prepared.trace;

@@ -39,7 +39,7 @@ std::vector<std::string> names_in(const Database& database) {
   return names;
 }
 
-/// The rules below hold for each engine and access mode.
+/// The tests below run for each engine and access mode.
 class DatabaseInMode : public testing::TestWithParam<std::tuple<std::string, const char*>> {
  protected:
   DatabaseInMode() {
@@ -50,7 +50,7 @@ class DatabaseInMode : public testing::TestWithParam<std::tuple<std::string, con
   TestFolder folder_;
 };
 
-TEST_P(DatabaseInMode, WhatIsPutComesBackBitForBit) {
+TEST_P(DatabaseInMode, AStoredMotionReadsBackBitForBit) {
   const Recording recording = small_recording("meteo", 3, {"MATIN", "NUAGES"});
   {
     Database database(path(), kv::Access::read_write);
@@ -64,7 +64,7 @@ TEST_P(DatabaseInMode, WhatIsPutComesBackBitForBit) {
   EXPECT_TRUE(check(database).faults.empty());
 }
 
-TEST_P(DatabaseInMode, AnAnswerLeadsToItsFrames) {
+TEST_P(DatabaseInMode, AnAnswerReadsItsFrames) {
   Database database(path(), kv::Access::read_write);
   const Recording recording = small_recording("meteo", 3, {"MATIN", "NUAGES"});
   database.put(recording);
@@ -99,7 +99,7 @@ INSTANTIATE_TEST_SUITE_P(EveryMode, DatabaseInMode,
                            return name;
                          });
 
-/// And these for each engine.
+/// The tests below run for each engine.
 class DatabaseTest : public testing::TestWithParam<std::string> {
  protected:
   DatabaseTest() {
@@ -112,7 +112,7 @@ class DatabaseTest : public testing::TestWithParam<std::string> {
 INSTANTIATE_TEST_SUITE_P(Engines, DatabaseTest, testing::ValuesIn(kv::engines()),
                          [](const auto& row) { return row.param; });
 
-TEST_P(DatabaseTest, IsMadeOnlyWhereNothingIs) {
+TEST_P(DatabaseTest, IsCreatedOnlyInAnEmptyFolder) {
   EXPECT_THROW(Database::create(path(), {}), Error);
   EXPECT_THAT(fault_of([&] { Database(folder_ / "none", kv::Access::read_only); }), HasSubstr("none"));
   EXPECT_THAT(fault_of([&] { Database::create(folder_ / "x", {.engine = "oracle"}); }), HasSubstr("oracle"));
@@ -154,7 +154,7 @@ TEST_P(DatabaseTest, ReplacingOneHalfKeepsTheOther) {
   database.put(motion);
   EXPECT_TRUE(same_poses(database.read("a"), small_motion(300, 5)));
   EXPECT_EQ(database.find(parse("gloss = \"C\"")).size(), 1u);
-  EXPECT_EQ(database.engine().entries, entries);  // what was replaced is gone
+  EXPECT_EQ(database.engine().entries, entries);  // the replaced records are erased
 }
 
 TEST_P(DatabaseTest, AReaderSeesChangesAfterTheyAreMade) {
@@ -164,10 +164,10 @@ TEST_P(DatabaseTest, AReaderSeesChangesAfterTheyAreMade) {
   writer.put(small_recording("a", 1, {"A"}));
   EXPECT_THAT(names_in(reader), ElementsAre("a"));
   const std::shared_ptr<const Contents> before = reader.contents();
-  EXPECT_EQ(reader.contents(), before);  // made anew only after a change
+  EXPECT_EQ(reader.contents(), before);  // read again only after a change
   writer.remove("a");
   EXPECT_TRUE(names_in(reader).empty());
-  EXPECT_EQ(before->recordings.size(), 1u);  // what was lent stays as it was
+  EXPECT_EQ(before->recordings.size(), 1u);  // contents already returned do not change
 }
 
 TEST_P(DatabaseTest, OnlyOneMayWrite) {
@@ -218,13 +218,13 @@ TEST_P(DatabaseTest, AnInterruptedPutLeavesTheRecordingAsItWas) {
   EXPECT_TRUE(check(database).faults.empty());
 }
 
-TEST_P(DatabaseTest, ChecksumsTellADamagedRecordingAndSpareTheOthers) {
+TEST_P(DatabaseTest, ChecksumsFindADamagedRecordingAndTheOthersStayReadable) {
   {
     Database database(path(), kv::Access::read_write);
     database.put(small_recording("good", 1, {"A"}));
     database.put(small_recording("bad", 2, {"B"}));
   }
-  {  // turn one bit of the document of "bad"
+  {  // flip one bit in the document of "bad"
     const auto store = kv::open(path(), kv::Access::read_write);
     const auto transaction = store->write();
     ByteWriter key;
@@ -242,7 +242,7 @@ TEST_P(DatabaseTest, ChecksumsTellADamagedRecordingAndSpareTheOthers) {
   EXPECT_EQ(database.document("good").tiers.size(), 2u);
 }
 
-/// Puts recordings r0, r1, … until killed; tells the number of each after it is stored.
+/// Puts recordings r0 to r4 in turn until killed; writes the number of each to the pipe after it is stored.
 [[noreturn]] void put_until_killed(const std::filesystem::path& path, int pipe) {
   Database database(path, kv::Access::read_write);
   for (int i = 0;; ++i) {
@@ -251,7 +251,7 @@ TEST_P(DatabaseTest, ChecksumsTellADamagedRecordingAndSpareTheOthers) {
   }
 }
 
-TEST_P(DatabaseTest, KilledAtAnyMomentEachRecordingIsAsItWasOrAsItWasToBecome) {
+TEST_P(DatabaseTest, AfterAKillAtAnyMomentEachRecordingIsTheOldOrTheNew) {
   for (int round = 0; round < 8; ++round) {
     int ends[2];
     ASSERT_EQ(::pipe(ends), 0);
@@ -271,12 +271,14 @@ TEST_P(DatabaseTest, KilledAtAnyMomentEachRecordingIsAsItWasOrAsItWasToBecome) {
 
     Database database(path(), kv::Access::read_write);
     EXPECT_THAT(check(database).faults, ElementsAre());
-    for (int i = std::max(0, last - 4); i <= last; ++i) {  // acknowledged: it, or the one being put over it, is there
+    for (int i = std::max(0, last - 4); i <= last;
+         ++i) {  // acknowledged: it or the one that was replacing it is stored
       const Motion motion = database.read("r" + std::to_string(i % 5));
       EXPECT_TRUE(same_poses(motion, small_motion(20'000, i)) || same_poses(motion, small_motion(20'000, i + 5))) << i;
     }
-    // Nothing is left of what was under way.
-    std::uint64_t expected = 3 + database.segments()->members().size();  // head, sweep list, segment tables and theirs
+    // Nothing is left of the interrupted put.
+    std::uint64_t expected =
+        3 + database.segments()->members().size();  // head, sweep list, segment tables and their list
     const std::shared_ptr<const Contents> contents = database.contents();
     for (const RecordingInfo& info : contents->recordings) {
       expected += 1 + 4 + motion_db::packet_count(*info.motion) + 1;  // entry; 4 of the document; packets; skeleton
@@ -292,7 +294,7 @@ Motion whole(const MotionSource& source) {
   return motion;
 }
 
-TEST_P(DatabaseTest, ASnapshotSeesNothingOfWhatIsChangedMeanwhile) {
+TEST_P(DatabaseTest, ASnapshotDoesNotSeeLaterChanges) {
   Database database(path(), kv::Access::read_write);
   database.put(small_recording("a", 1, {"A"}));
   const Snapshot before = database.snapshot();
@@ -302,7 +304,7 @@ TEST_P(DatabaseTest, ASnapshotSeesNothingOfWhatIsChangedMeanwhile) {
   EXPECT_TRUE(same_poses(whole(*before.motion(before.contents().recordings[0])), small_motion(300, 1)));
   const Snapshot after = database.snapshot();
   EXPECT_TRUE(same_poses(whole(*after.motion(after.contents().at("a"))), small_motion(50, 2)));
-  // Whoever looks again sees what is there now, whatever the older snapshot saw.
+  // The database itself shows the current state, although an older snapshot exists.
   EXPECT_EQ(database.contents()->recordings.size(), 2u);
 }
 
@@ -316,12 +318,12 @@ TEST_P(DatabaseTest, QuaternionsAreStoredInOneHemisphere) {
   EXPECT_TRUE(same_poses(database.read("a"), small_motion(300, 1)));
 }
 
-TEST_P(DatabaseTest, AnEntryBeyondReadingStaysReportedUntilItIsRemoved) {
+TEST_P(DatabaseTest, AnUnreadableEntryIsReportedUntilItIsRemoved) {
   {
     Database database(path(), kv::Access::read_write);
     for (const char* name : {"a", "b", "c"}) database.put(small_recording(name, 1, {"A"}));
   }
-  {  // turn one bit of the second entry
+  {  // flip one bit in the second entry
     const auto store = kv::open(path(), kv::Access::read_write);
     const auto transaction = store->write();
     ByteWriter key;
@@ -348,7 +350,7 @@ TEST_P(DatabaseTest, AnEntryBeyondReadingStaysReportedUntilItIsRemoved) {
   EXPECT_THROW(database.remove("catalogue entry 0"), Error);
   database.remove("catalogue entry 1");
   EXPECT_THAT(names_in(database), ElementsAre("a"));
-  EXPECT_EQ(entries_of_recordings(), entries / 3) << "the records of a: no others";
+  EXPECT_EQ(entries_of_recordings(), entries / 3) << "only the records of a are left";
   EXPECT_TRUE(check(database).faults.empty());
 }
 
@@ -358,7 +360,7 @@ TEST_P(DatabaseTest, ADamagedSweepListCostsNothing) {
     database.put(small_recording("a", 1, {"A"}));
   }
   std::uint64_t entries = 0;
-  {  // a motion that nobody names, as a crash leaves it, and a list that does not tell of it
+  {  // a motion that no entry names, as a crash leaves it, and a list that does not contain it
     const auto store = kv::open(path(), kv::Access::read_write);
     entries = store->info().entries;
     motion_db::put(*store, motion_db::describe(small_motion(2'000, 2), {}, 77), small_motion(2'000, 2));

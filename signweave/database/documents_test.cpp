@@ -47,7 +47,7 @@ std::uint64_t records_of(const Database& database, std::string_view kind) {
   return 0;
 }
 
-TEST_P(DocumentStorageTest, ADatabaseStoresAsItWasMadeTo) {
+TEST_P(DocumentStorageTest, ADatabaseStoresDocumentsAsItWasCreatedTo) {
   for (const DocumentStorage storage : kStorages) {
     Database database(make(storage), kv::Access::read_write);
     EXPECT_EQ(database.document_storage(), storage);
@@ -66,7 +66,7 @@ TEST_P(DocumentStorageTest, ADatabaseStoresAsItWasMadeTo) {
   }
 }
 
-TEST_P(DocumentStorageTest, RelayoutGoesInBothDirectionsAndKeepsEveryByte) {
+TEST_P(DocumentStorageTest, RelayoutInBothDirectionsKeepsEveryByte) {
   Database database(make(DocumentStorage::document), kv::Access::read_write);
   database.put(small_recording("r", 1, {"A", "B"}));
   database.put(small_recording("s", 2, {"C"}));
@@ -97,7 +97,7 @@ TEST_P(DocumentStorageTest, ReplacingADocumentLeavesNothingOfTheOld) {
   EXPECT_EQ(records_of(database, "documents"), 1 + 3 + 4 + 1);
 }
 
-TEST_P(DocumentStorageTest, APartIsAnsweredFromItsOwnRecords) {
+TEST_P(DocumentStorageTest, APartIsReadFromItsOwnRecords) {
   const std::filesystem::path path = make(DocumentStorage::node);
   Database(path, kv::Access::read_write).put(small_recording("r", 1, {"A", "B"}));
   {
@@ -128,7 +128,7 @@ TEST_P(DocumentStorageTest, APartIsAnsweredFromItsOwnRecords) {
   EXPECT_THAT(check(database).faults, SizeIs(testing::Ge(1U)));
 }
 
-TEST_P(DocumentStorageTest, AnvilIsKeptAsItCameWithItsSpecification) {
+TEST_P(DocumentStorageTest, AnvilIsStoredVerbatimWithItsSpecification) {
   const std::filesystem::path file = std::filesystem::path(SIGNWEAVE_SOURCE_DIR) / "testdata/anvil/signs.anvil";
   const AnnotationDocument document = annotation_file::read(file).document;
   for (const DocumentStorage storage : kStorages) {
@@ -157,7 +157,7 @@ TEST_P(DocumentStorageTest, AnOlderCatalogueStoresDocumentsWhole) {
   EXPECT_EQ(database.document_storage(), DocumentStorage::node);
 }
 
-TEST_P(DocumentStorageTest, ADeadlineAndALimitAreKept) {
+TEST_P(DocumentStorageTest, ADeadlineAndALimitAreObserved) {
   Database database(make(DocumentStorage::node), kv::Access::read_write);
   database.put(small_recording("r", 1, {"A", "B"}));
   database.put(small_recording("s", 1, {"A", "B"}));
@@ -190,7 +190,7 @@ std::string generated_expression() {
       head = "//track[@name=" + quoted + "]";
       break;
     case 4:
-      head = "//TIER";  // of which no part tells
+      head = "//TIER";  // no part of the document is sufficient for it
       break;
     default:
       head = "//TIER[@TIER_ID=" + quoted + "]";
@@ -220,12 +220,12 @@ std::string generated_expression() {
   return call.empty() ? path : call + "(" + path + ")";
 }
 
-RC_GTEST_PROP(DocumentStorageProperty, BothStoragesAnswerEveryExpressionAlike, ()) {
-  // One database for all runs: making one takes longer than asking it.
+RC_GTEST_PROP(DocumentStorageProperty, BothStoragesGiveTheSameAnswers, ()) {
+  // One database for all runs: creating one takes longer than querying it.
   static const TestFolder folder;
   static Database* const database = [] {
     Database::create(folder / "db", {});
-    return new Database(folder / "db", kv::Access::read_write);  // never deleted: it outlives the runs
+    return new Database(folder / "db", kv::Access::read_write);  // never deleted, since it must outlive the runs
   }();
   std::string text =
       testing_documents::pick(4) == 0 ? testing_documents::anvil_text(true) : testing_documents::eaf_text(true);

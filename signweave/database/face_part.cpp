@@ -44,14 +44,14 @@ std::size_t add_face(const fs::path& path, Seconds offset, Motion& motion, std::
         {path.string(),
          fmt::format("the face begins {:.1f} s after the motion; its first values are held before", offset.count())});
   }
-  // A row covers the time until the next, as a frame does: half a second more or less is worth a word.
+  // A row covers the time until the next, as a frame does; a difference of more than half a second is reported.
   const double missing = motion.duration().count() - last;
   if (missing > 0.5) {
     face.notices.push_back(
         {path.string(), fmt::format("the face ends {:.1f} s before the motion; its last values are held", missing)});
   } else if (missing < -0.5) {
     face.notices.push_back(
-        {path.string(), fmt::format("the face goes on {:.1f} s after the motion; that is left out", -missing)});
+        {path.string(), fmt::format("the face continues {:.1f} s after the motion; that is left out", -missing)});
   }
   std::vector<ScalarTrack> own = motion.take_tracks();
   std::vector<ScalarTrack> of_face = face_csv::resampled(face, motion.rate(), motion.frame_count(), offset);

@@ -16,7 +16,7 @@ using namespace testing_database;
 using testing::Contains;
 using testing::HasSubstr;
 
-/// A capture of two rows, a second apart: jawOpen from 0 to 1. It begins at 10:00:10.
+/// A capture of two rows a second apart, from 10:00:10: jawOpen rises from 0 to 1.
 const char* const kFaceText = "Timecode,BlendShapeCount,JawOpen\n10:00:10:00,1,0\n10:00:10:30,1,0.5\n10:00:11:00,1,1\n";
 
 class FacePart : public testing::Test {
@@ -31,7 +31,7 @@ class FacePart : public testing::Test {
     Database database(folder_ / "db", kv::Access::read_write);
     return import_recording(database, pair_files({folder_ / "a.bvh"}).jobs.at(0), options);
   }
-  /// jawOpen of the stored motion at a frame.
+  /// Returns jawOpen of the stored motion at a frame.
   float jaw(std::size_t frame) const {
     return Database(folder_ / "db", kv::Access::read_only).read("a").tracks().at(0).values.at(frame);
   }
@@ -51,7 +51,7 @@ TEST_F(FacePart, BeginsWithTheMotionUnlessGivenOtherwise) {
   EXPECT_NEAR(jaw(50), 0.5f, 1e-6f);
 }
 
-TEST_F(FacePart, LiesWhereAnOffsetOrATimecodeSays) {
+TEST_F(FacePart, BeginsAtAnOffsetOrATimecode) {
   ImportReport report = import({.face_offset = Seconds(0.75)});
   EXPECT_NEAR(jaw(125), 0.5f, 1e-6f);
   EXPECT_EQ(jaw(10), 0.0f);
@@ -63,7 +63,7 @@ TEST_F(FacePart, LiesWhereAnOffsetOrATimecodeSays) {
   EXPECT_NEAR(jaw(100), 0.5f, 1e-6f);
 }
 
-TEST_F(FacePart, StaysWhereItWasPutUntilItIsGivenAgain) {
+TEST_F(FacePart, KeepsItsOffsetUntilAnotherIsGiven) {
   import({.face_offset = Seconds(0.5)});
   EXPECT_EQ(import({}).outcome, ImportOutcome::unchanged);
   EXPECT_EQ(import({.face_offset = Seconds(0.5)}).outcome, ImportOutcome::unchanged);
@@ -74,14 +74,14 @@ TEST_F(FacePart, StaysWhereItWasPutUntilItIsGivenAgain) {
   EXPECT_NEAR(jaw(75), 0.5f, 1e-6f);
 }
 
-TEST_F(FacePart, OutsideOfTheMotionIsRefused) {
+TEST_F(FacePart, IsRefusedOutsideOfTheMotion) {
   EXPECT_THAT(fault({.face_offset = Seconds(2.5)}), HasSubstr("the face, from 2.500 to 3.500 s of the motion, lies "
                                                               "outside of its 2.000 s"));
   EXPECT_THAT(fault({.face_timecode = "09:00:00:00"}), HasSubstr("lies outside"));
   EXPECT_THAT(fault({.face_timecode = "nine"}), HasSubstr("face_timecode: 'nine' is not a timecode"));
 }
 
-TEST_F(FacePart, ItsTracksStandInsteadOfTheMotionsOwnOfTheSameName) {
+TEST_F(FacePart, ItsTracksReplaceTheMotionsOwnOfTheSameName) {
   Motion motion = small_motion(200, 1);
   motion.add_track({"smile", std::vector<float>(200, 0.25f)});
   motion.add_track({"jawOpen", std::vector<float>(200, 0.75f)});
@@ -95,7 +95,7 @@ TEST_F(FacePart, ItsTracksStandInsteadOfTheMotionsOwnOfTheSameName) {
   EXPECT_THAT(notices.at(1).text, HasSubstr("1 track of the motion file take their values from the face"));
 }
 
-TEST_F(FacePart, OfAMotionWithTracksOfItsOwnTheyComeBackWhenAnotherFaceLacksThem) {
+TEST_F(FacePart, ReplacedTracksOfTheMotionReturnWhenAnotherFaceLacksThem) {
   Motion motion = small_motion(200, 1);
   motion.add_track({"jawOpen", std::vector<float>(200, 0.75f)});
   gltf::write(folder_ / "g.glb", motion, {.name = "g"});
@@ -122,7 +122,7 @@ TEST_F(FacePart, OfAMotionWithTracksOfItsOwnTheyComeBackWhenAnotherFaceLacksThem
   EXPECT_EQ(import_g({}), ImportOutcome::unchanged);
 }
 
-TEST_F(FacePart, ATablePairsItWithAnOffset) {
+TEST_F(FacePart, ATableGivesItsOffset) {
   std::ofstream(folder_ / "other.face.csv") << kFaceText;
   std::ofstream(folder_ / "pairs.csv")
       << "motion,annotation,signer,offset,face,face offset\na.bvh,,,,other.face.csv,250\n";

@@ -1,4 +1,4 @@
-// What must hold when things break around a database: a full disk, flipped bits, others at work.
+// A database under faults: a full disk, flipped bits, concurrent processes.
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -25,7 +25,7 @@ using testing::ElementsAre;
 
 namespace fs = std::filesystem;
 
-/// Begins a child process that does `action`, which throws where something is wrong.
+/// Starts a child process that runs `action`; an exception makes it fail.
 pid_t begin_child(const std::function<void()>& action) {
   const pid_t child = ::fork();
   if (child != 0) return child;
@@ -39,7 +39,7 @@ pid_t begin_child(const std::function<void()>& action) {
   ::_exit(status);
 }
 
-/// True where the child came to its end without a fault.
+/// Waits for the child; true if it ended without a fault.
 bool ended_well(pid_t child) {
   int status = -1;
   return child > 0 && ::waitpid(child, &status, 0) == child && WIFEXITED(status) && WEXITSTATUS(status) == 0;
@@ -76,7 +76,7 @@ TEST_P(DatabaseFaults, AFullDiskIsAnErrorThatChangesNothing) {
     for (const fs::directory_entry& file : fs::directory_iterator(path())) {
       largest = std::max(largest, file.is_regular_file() ? file.file_size() : 0);
     }
-    const rlimit limit{largest + 200'000, largest + 200'000};  // stands for the end of the disk
+    const rlimit limit{largest + 200'000, largest + 200'000};  // simulates a full disk
     require(::setrlimit(RLIMIT_FSIZE, &limit) == 0, "no limit");
     const auto refused = [&](const char* what, const std::function<void()>& change) {
       try {
@@ -94,7 +94,7 @@ TEST_P(DatabaseFaults, AFullDiskIsAnErrorThatChangesNothing) {
   Database database(path(), kv::Access::read_write);
   EXPECT_EQ(database.contents()->recordings.size(), 1u);
   EXPECT_TRUE(same_poses(database.read("a"), motion));
-  EXPECT_EQ(database.engine().entries, entries) << "what was half written is gone";
+  EXPECT_EQ(database.engine().entries, entries) << "nothing of the interrupted put is left";
   EXPECT_THAT(check(database).faults, ElementsAre());
   database.put(small_recording("b", 2, {"B"}, 100'000));
   EXPECT_TRUE(same_poses(database.read("b"), small_motion(100'000, 2)));
@@ -143,7 +143,7 @@ TEST_P(DatabaseFaults, AFlippedBitInAnyRecordIsAnErrorOrAnIntactAnswer) {
           }
         }
         EXPECT_GE(intact, 2) << "the others stay readable";
-      } catch (const Error&) {  // the head: nothing can be reported without it
+      } catch (const Error&) {  // without the head nothing can be checked
         reported = true;
         EXPECT_TRUE(key.size() == 1 && key[0] == std::byte{'C'});
       }
@@ -156,8 +156,8 @@ TEST_P(DatabaseFaults, AFlippedBitInAnyRecordIsAnErrorOrAnIntactAnswer) {
   EXPECT_THAT(check(Database(path(), kv::Access::read_only)).faults, ElementsAre());
 }
 
-TEST_P(DatabaseFaults, TwoWritersAndManyReadersInProcessesOfTheirOwn) {
-  const auto opened = [&](kv::Access access) {  // somebody else is at it: try again, as the error says
+TEST_P(DatabaseFaults, TwoWritersAndManyReadersInSeparateProcesses) {
+  const auto opened = [&](kv::Access access) {  // another process has it open: try again, as the error says
     const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(120);
     for (;;) {
       try {
@@ -186,8 +186,8 @@ TEST_P(DatabaseFaults, TwoWritersAndManyReadersInProcessesOfTheirOwn) {
         for (const RecordingInfo& info : snapshot.contents().recordings) {
           const Motion motion = database->read(info.name);
           const int seed = static_cast<int>(std::lround(motion.pose(0).translations[0].x()));
-          require(same_poses(motion, small_motion(500, seed)), info.name + " is not what anybody wrote");
-          require(seed / 100 == info.name[1] - '0', info.name + " is another's");
+          require(same_poses(motion, small_motion(500, seed)), info.name + " is not what a writer stored");
+          require(seed / 100 == info.name[1] - '0', info.name + " belongs to the other writer");
         }
       }
     }));

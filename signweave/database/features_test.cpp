@@ -1,4 +1,4 @@
-// What is measured of a recording's phases when it is stored, and when something of it changes.
+// Features of phases: measured when a recording is stored, and again when part of it changes.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -27,7 +27,7 @@ struct Scene {
   std::unique_ptr<Database> database;
 };
 
-/// The same phases, measured from what the database holds.
+/// Measures the phases again from the stored motion.
 RecordingFeatures measured_again(const Database& database, const std::string& name) {
   const RecordingInfo info = *database.info(name);
   const Motion motion = database.read(name);
@@ -131,7 +131,7 @@ TEST(Features, AMappingFileMustFitAMotionThatHasNoAnnotationYet) {
   EXPECT_TRUE(scene.database->info("a")->rig.empty());
 }
 
-TEST(Features, OfABodyWithoutHandsSayWhy) {
+TEST(Features, WithoutHandsHaveAReason) {
   Scene scene;
   Recording recording = recording_of("a", 1, {"A"});
   recording.rig = RigNames{{Part::right_hand, ""}, {Part::left_hand, ""}};
@@ -140,7 +140,7 @@ TEST(Features, OfABodyWithoutHandsSayWhy) {
   expect_current(*scene.database, "a");
 }
 
-TEST(Features, OfSignsOutsideTheMotionSayWhy) {
+TEST(Features, OfSignsOutsideTheMotionHaveAReason) {
   Scene scene;
   Recording recording = recording_of("a", 1, {"A"});
   recording.clock.origin = Seconds(60);
@@ -149,7 +149,7 @@ TEST(Features, OfSignsOutsideTheMotionSayWhy) {
   expect_current(*scene.database, "a");
 }
 
-TEST(Features, ShouldersInOnePlaceSayWhy) {
+TEST(Features, WithoutShoulderWidthHaveAReason) {
   Scene scene;
   Recording recording = recording_of("a", 1, {"A"});
   recording.rig = RigNames{{Part::left_upper_arm, "LeftShoulder"}, {Part::right_upper_arm, "RightShoulder"}};
@@ -158,7 +158,7 @@ TEST(Features, ShouldersInOnePlaceSayWhy) {
   expect_current(*scene.database, "a");
 }
 
-TEST(Features, OfABodyThatIsNoneSayWhy) {
+TEST(Features, WithoutABodyHaveAReason) {
   Scene scene;
   scene.database->put(small_recording("a", 1, {"A"}));
   const RecordingFeatures features = scene.database->features("a");
@@ -168,7 +168,7 @@ TEST(Features, OfABodyThatIsNoneSayWhy) {
   expect_current(*scene.database, "a");
 }
 
-TEST(Features, OfOneHalfSayWhichIsMissing) {
+TEST(Features, OfOneHalfNameTheMissingOne) {
   Scene scene;
   Recording words = recording_of("words", 1, {"A"});
   words.motion.reset();
@@ -182,7 +182,7 @@ TEST(Features, OfOneHalfSayWhichIsMissing) {
   EXPECT_THAT(check(*scene.database).faults, IsEmpty());
 }
 
-/// Writes straight into the store, as damage or an earlier version would have left it.
+/// Writes directly into the store, to simulate damage or an earlier version.
 template <typename Change>
 void change_behind(const TestFolder& folder, Change change) {
   const std::unique_ptr<kv::KvStore> store = kv::open(folder / "db", kv::Access::read_write);
@@ -204,7 +204,7 @@ TEST(Features, CheckMeasuresASampleAgain) {
                                                             "phase from 100 to 300 ms)")));
 }
 
-TEST(Features, OfAnEarlierVersionAreMeasuredWhenAskedForAndStoredOnDemand) {
+TEST(Features, OfAnEarlierVersionAreMeasuredWhenReadAndStoredOnRequest) {
   Scene scene;
   scene.database->put(recording_of("a", 1, {"A"}));
   EXPECT_FALSE(scene.database->measure("a"));
@@ -225,7 +225,7 @@ TEST(Features, OfAnEarlierVersionAreMeasuredWhenAskedForAndStoredOnDemand) {
   }
 }
 
-TEST(Features, ThatAreDamagedAreReportedAndMeasuredAgain) {
+TEST(Features, DamagedOnesAreReportedAndMeasuredAgain) {
   Scene scene;
   scene.database->put(recording_of("a", 1, {"A"}));
   const std::uint64_t document = scene.database->info("a")->document;
@@ -246,7 +246,7 @@ TEST(Features, ThatAreDamagedAreReportedAndMeasuredAgain) {
   expect_current(database, "a");
 }
 
-TEST(Features, ASearchThatIsStoppedWhileItMeasuresLeavesNothingHalfDone) {
+TEST(Features, ASearchStoppedWhileItMeasuresLeavesNoPartialResult) {
   Scene scene;
   for (int i = 0; i < 3; ++i) {
     scene.database->put(recording_of(std::string(1, static_cast<char>('a' + i)), 1 + i, {"A", "B", "C"}));
@@ -260,7 +260,7 @@ TEST(Features, ASearchThatIsStoppedWhileItMeasuresLeavesNothingHalfDone) {
     int stopped = 0;
     int answered = 0;
     for (int i = 0; i < 200 && answered < 3; ++i) {
-      const Database database(scene.folder / "db", kv::Access::read_only);  // it knows nothing yet
+      const Database database(scene.folder / "db", kv::Access::read_only);  // with an empty cache
       database.contents();
       const auto time = std::chrono::microseconds(10 << i / 8);
       try {

@@ -3,7 +3,7 @@
 namespace signweave {
 namespace {
 
-/// The half of `whole` that begins at `from`. `whole` must outlive the result.
+/// Returns the half of `whole` that begins at `from`. `whole` must outlive the result.
 Database::Progress half_of(const Database::Progress& whole, double from) {
   if (!whole) return {};
   return [&whole, from](double fraction) { whole(from + fraction / 2); };

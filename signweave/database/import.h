@@ -23,8 +23,8 @@ struct ImportReport {
   std::vector<Notice> notices;
 };
 
-/// Stores what was planned, atomically: a fault leaves the recording as it was. Throws Error{conflict} if the entries
-/// that the plan was made from have changed since, Error{io}, and what `progress` throws.
+/// Carries out a plan, atomically: an error leaves the recording as it was. Throws Error{conflict} if the entries that
+/// the plan was made from have changed since, Error{io}, and what `progress` throws.
 ImportReport apply(Database& database, const ImportPlan& plan, const Database::Progress& progress = {});
 
 /// Imports one recording: plans it and applies the plan. Throws what the two throw.

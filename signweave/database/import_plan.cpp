@@ -21,9 +21,9 @@ JobFingerprints fingerprints_of(const ImportJob& job, const ImportOptions& optio
           .face = job.face ? file_checksum(*job.face) : 0};
 }
 
-/// Finds what is stored of a job's files: under the job's name, or under the shorter name that the same files had
-/// before another file of the same stem was added. Returns null if nothing is. Every entry that it reads is added to
-/// `known`, which owns the result.
+/// Returns the stored recording of a job: of the job's name, or of the shorter name that the same files had before
+/// another file of the same stem was added. Null if there is none. Adds every entry that it reads to `known`, which
+/// owns the result.
 const RecordingInfo* find_stored(const Database& database, const ImportJob& job, const JobFingerprints& prints,
                                  KnownRecordings& known) {
   const auto look_up = [&](const std::string& name) -> const std::optional<RecordingInfo>& {
@@ -98,7 +98,7 @@ ImportOutcome outcome_of(bool known, const ImportChanges& changes, const MotionD
   return ImportOutcome::clock_changed;
 }
 
-/// What is said of the recording as a whole.
+/// Adds the notices about the recording as a whole.
 void add_whole_notices(const ImportPlan& plan, const std::vector<Sign>& signs, bool has_motion, bool has_document,
                        std::vector<Notice>& notices) {
   const std::string& name = plan.recording.name;
@@ -107,7 +107,7 @@ void add_whole_notices(const ImportPlan& plan, const std::vector<Sign>& signs, b
   if (!has_document) notices.push_back({name, "motion without annotation: it can be read, not searched"});
 }
 
-/// Fills in what is stored. `motion` and `annotation` give their values away.
+/// Fills in the recording to be stored. Moves from `motion` and `annotation`.
 void fill_recording(const PlanInput& input, PlannedMotion& motion, PlannedAnnotation& annotation, ImportPlan& plan) {
   Recording& recording = plan.recording;
   const bool has_motion = motion.part || input.motion_known();

@@ -45,8 +45,8 @@ struct ImportChanges {
 struct ImportPlan {
   ImportOutcome outcome = ImportOutcome::unchanged;
   ImportChanges changes;
-  /// What is stored: the name, the halves that are new, clock, signer, rig names, notices. If the outcome is
-  /// `unchanged` or `measured`, only the name is set.
+  /// The data to be stored: the name, the new halves, clock, signer, rig names, notices. If the outcome is `unchanged`
+  /// or `measured`, only the name is set.
   Recording recording;
   KnownRecordings known;    ///< the entries of the database that the plan was made from
   std::int64_t frames = 0;  ///< of the motion after the import; 0: none
@@ -54,14 +54,15 @@ struct ImportPlan {
   std::size_t signs = 0;    ///< in the annotation after the import; 0 if nothing is stored
 };
 
-/// Decides what an import of one recording does, given what `database` holds of it, and reads the files that it needs.
-/// Changes nothing; the database may be open read-only. Only a changed annotation replaces the annotation alone.
+/// Decides what an import of one recording does, given the stored recording, and reads the files that it needs. Changes
+/// nothing; the database may be open read-only. If only the annotation changed, only the annotation is replaced.
 ///
-/// Throws everything that can be refused before something is stored: Error{conflict} for a changed motion, or a changed
-/// face, which is a part of it, unless options.replace_motion (which also takes an unchanged one again, over damage);
-/// Error{conflict} for another annotation than the stored one if options.if_annotation names a third;
+/// Throws every error that can be found before something is stored: Error{conflict} for a changed motion, or a changed
+/// face, which is a part of it, unless options.replace_motion (which also stores an unchanged one again, to repair
+/// damage); Error{conflict} for another annotation than the stored one if options.if_annotation names a third;
 /// Error{bad_input} or Error{not_found} for options, clocks and mapping files that do not fit; and what the readers of
-/// the files throw. Settings of an earlier import (clock, tiers, signer, rig names) hold until they are given again.
+/// the files throw. Settings of an earlier import (clock, tiers, signer, rig names) are kept until they are given
+/// again.
 ImportPlan plan_import(const Database& database, const ImportJob& job, const ImportOptions& options);
 
 /// Identifies the annotation of a recording: 16 hexadecimal digits, or "none".

@@ -19,7 +19,7 @@ class ImportPlanTest : public ImportTest {
  protected:
   Database open() const { return Database(folder_ / "db", kv::Access::read_write); }
   ImportJob job(std::size_t index = 0) const { return pair_files({files()}).jobs.at(index); }
-  /// Plans with a database that cannot be changed.
+  /// Plans with a database opened read-only.
   ImportPlan plan(const ImportOptions& options = {}) const {
     return plan_import(Database(folder_ / "db", kv::Access::read_only), job(), options);
   }
@@ -31,7 +31,7 @@ class ImportPlanTest : public ImportTest {
     }
     return "no error";
   }
-  /// The code with which applying a plan is refused.
+  /// Returns the code of the error that applying a plan throws.
   std::optional<ErrorCode> refusal(const ImportPlan& planned, const Database::Progress& progress = {}) {
     Database database = open();
     return refusal(database, planned, progress);
@@ -48,7 +48,7 @@ class ImportPlanTest : public ImportTest {
   }
 };
 
-TEST_F(ImportPlanTest, APlanNamesWhatBecomesOfEachPart) {
+TEST_F(ImportPlanTest, APlanGivesTheChangeOfEachPart) {
   write_motion("a.bvh", 1);
   write_annotation("a.eaf", {"A"});
   const ImportPlan first = plan();
@@ -98,7 +98,7 @@ TEST_F(ImportPlanTest, PlanningChangesNothing) {
   EXPECT_EQ(plan_import(database, job(), {}).outcome, ImportOutcome::unchanged);
 }
 
-TEST_F(ImportPlanTest, WhatCanBeRefusedIsRefusedByThePlan) {
+TEST_F(ImportPlanTest, PlanningThrowsTheRefusals) {
   write_motion("a.bvh", 1);
   EXPECT_THAT(error_of_plan({.offset = Seconds(1e300)}), HasSubstr("offset_ms"));
   EXPECT_THAT(error_of_plan({.rig = RigNames{{Part::head, "Hed"}}}), HasSubstr("a: its mapping file: "));
@@ -136,7 +136,7 @@ TEST_F(ImportPlanTest, APlanOfAnOlderStateIsRefused) {
   EXPECT_EQ(refusal(moves), ErrorCode::conflict) << "the recording is gone";
 }
 
-TEST_F(ImportPlanTest, AnEntryOfTheSameFilesUnderTheirShorterNameIsPartOfTheState) {
+TEST_F(ImportPlanTest, AnEntryUnderAShorterNameIsPartOfTheKnownState) {
   write_motion("x/a.bvh", 1);
   write_motion("y/a.bvh", 2);
   const ImportPlan planned = plan();
@@ -153,7 +153,7 @@ TEST_F(ImportPlanTest, AChangeWhileThePlanIsAppliedIsNoticed) {
   write_motion("a.bvh", 1);
   const ImportPlan planned = plan();
   Database database = open();
-  database.set_storage({.mode = {}, .tolerance = 0.001f});  // so that progress is reported before the motion is written
+  database.set_storage({.mode = {}, .tolerance = 0.001f});  // rounding reports progress before the motion is written
   bool changed = false;
   const auto change = [&](double) {
     if (!std::exchange(changed, true)) database.put(small_recording("a", 3, {"A"}));

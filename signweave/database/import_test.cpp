@@ -16,7 +16,7 @@ using namespace testing_database;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-TEST_F(ImportTest, ASecondImportDoesWhatChangedAndNoMore) {
+TEST_F(ImportTest, ASecondImportStoresOnlyWhatChanged) {
   write_motion("a.bvh", 1);
   write_annotation("a.eaf", {"A"});
   EXPECT_THAT(import_all(), ElementsAre(ImportOutcome::added));
@@ -27,7 +27,7 @@ TEST_F(ImportTest, ASecondImportDoesWhatChangedAndNoMore) {
   EXPECT_THAT(import_all(), ElementsAre(ImportOutcome::unchanged));
 }
 
-TEST_F(ImportTest, AMotionThatChangedIsTakenOnlyWhenAsked) {
+TEST_F(ImportTest, AChangedMotionIsImportedOnlyOnRequest) {
   write_motion("a.bvh", 1);
   write_annotation("a.eaf", {"A"});
   import_all();
@@ -53,7 +53,7 @@ TEST_F(ImportTest, ABrokenFileChangesNothingOfItsRecording) {
   EXPECT_EQ(Database(folder_ / "db", kv::Access::read_only).find(parse("gloss = \"A\"")).size(), 1u);
 }
 
-TEST_F(ImportTest, HalvesComeTogetherInAnyOrder) {
+TEST_F(ImportTest, HalvesAreImportedInAnyOrder) {
   write_annotation("a.eaf", {"A"});
   EXPECT_THAT(import_all(), ElementsAre(ImportOutcome::added));
   EXPECT_THAT(notices_, testing::Contains(HasSubstr("annotation without motion")));
@@ -77,7 +77,7 @@ TEST_F(ImportTest, TheClockComesFromTheLinkedFileOrFromOptions) {
   EXPECT_THROW(import_all({.sync = {{0, Seconds(1)}, {0, Seconds(2)}}}), Error);
 }
 
-TEST_F(ImportTest, TheOptionsOfAnEarlierImportHold) {
+TEST_F(ImportTest, TheOptionsOfAnEarlierImportAreKept) {
   write_motion("a.bvh", 1);
   write_annotation("a.eaf", {"A"});
   import_all({.offset = Seconds(0.7)});
@@ -89,7 +89,7 @@ TEST_F(ImportTest, TheOptionsOfAnEarlierImportHold) {
   EXPECT_NEAR(Database(folder_ / "db", kv::Access::read_only).info("a")->clock.origin.count(), 0.0, 1e-9);
 }
 
-TEST_F(ImportTest, WhatWasGuessedIsGuessedAgain) {
+TEST_F(ImportTest, GuessedTiersAreGuessedAgain) {
   write_motion("a.bvh", 1);
   AnnotationDocument document = small_document({"A"});
   document.tiers.pop_back();  // no phases yet
@@ -100,7 +100,7 @@ TEST_F(ImportTest, WhatWasGuessedIsGuessedAgain) {
   EXPECT_EQ(Database(folder_ / "db", kv::Access::read_only).find(parse("phase = preparation")).size(), 1u);
 }
 
-TEST_F(ImportTest, AnOffsetGivenWithTheAnnotationWaitsForTheMotion) {
+TEST_F(ImportTest, AnOffsetGivenWithTheAnnotationAppliesToALaterMotion) {
   write_annotation("a.eaf", {"A"});
   import_all({.offset = Seconds(0.7)});
   write_motion("a.bvh", 1);
@@ -122,7 +122,7 @@ TEST_F(ImportTest, AMotionOfAnotherRateKeepsTheOffsetAndTakesItsOwnRate) {
   EXPECT_NEAR(clock.origin.count(), 0.1, 1e-9);
 }
 
-TEST_F(ImportTest, ADamagedDocumentIsMendedByImportingItAgain) {
+TEST_F(ImportTest, ImportingADocumentAgainRepairsDamage) {
   write_motion("a.bvh", 1);
   write_annotation("a.eaf", {"A"});
   import_all();
@@ -150,7 +150,7 @@ TEST_F(ImportTest, AClockThatNoRecordingCanHaveIsRefused) {
   EXPECT_THROW(import_all({.sync = {{0, Seconds(0)}, {1, Seconds(1000)}}}), Error);
 }
 
-TEST_F(ImportTest, ALinkedFileIsKnownByItsWholeName) {
+TEST_F(ImportTest, ALinkedFileIsRecognizedByItsWholeName) {
   write_motion("sign.bvh", 1);
   write_annotation("sign.eaf", {"A"},
                    {{.url = "file:///x/othersign.bvh", .mime_type = "x", .time_origin = 700ms, .media = false},
@@ -159,7 +159,7 @@ TEST_F(ImportTest, ALinkedFileIsKnownByItsWholeName) {
   EXPECT_NEAR(Database(folder_ / "db", kv::Access::read_only).info("sign")->clock.origin.count(), -0.2, 1e-9);
 }
 
-TEST_F(ImportTest, AStoredRecordingKeepsItsNameWhenAnotherOfItsStemIsAdded) {
+TEST_F(ImportTest, AStoredRecordingKeepsItsNameWhenAnotherOfTheSameStemIsAdded) {
   write_motion("a.bvh", 1);
   import_all();
   write_motion("sub/a.bvh", 2);
@@ -167,7 +167,7 @@ TEST_F(ImportTest, AStoredRecordingKeepsItsNameWhenAnotherOfItsStemIsAdded) {
   EXPECT_EQ(Database(folder_ / "db", kv::Access::read_only).contents()->recordings.size(), 2u);
 }
 
-TEST_F(ImportTest, ReplacingTheMotionMendsDamage) {
+TEST_F(ImportTest, ReplacingTheMotionRepairsDamage) {
   write_motion("a.bvh", 1);
   import_all();
   EXPECT_THAT(import_all({.replace_motion = true}), ElementsAre(ImportOutcome::motion_replaced));
@@ -180,7 +180,7 @@ TEST_F(ImportTest, SignsOutsideTheMotionAreReported) {
   EXPECT_THAT(notices_, testing::Contains(HasSubstr("2 of 3 signs lie outside the motion (the first: B at 400 ms)")));
 }
 
-TEST_F(ImportTest, NoticesAreKeptWithoutTheFoldersThatTheFilesLayIn) {
+TEST_F(ImportTest, NoticesAreStoredWithoutTheFoldersOfTheFiles) {
   write_motion("sub/a.bvh", 1, 50);
   write_annotation("sub/a.eaf", {"A", "B", "C"});
   import_all();
@@ -201,8 +201,7 @@ TEST_F(ImportTest, PhaseLabelsAreReadFromATable) {
   EXPECT_THROW(read_phase_labels(files() / "wrong.txt"), Error);
 }
 
-/// A face of one track over some rows, 60 a second.
-TEST_F(ImportTest, TiersThatThereAreNotAreNotGuessed) {
+TEST_F(ImportTest, TiersGivenAsNoneAreNotGuessed) {
   write_motion("a.bvh", 1);
   write_annotation("a.eaf", {"A"});
   const auto tiers = [&] { return Database(folder_ / "db", kv::Access::read_only).info("a")->tiers; };
@@ -213,7 +212,7 @@ TEST_F(ImportTest, TiersThatThereAreNotAreNotGuessed) {
   EXPECT_THAT(import_all({.no_phase_tier = true}), ElementsAre(ImportOutcome::annotation_replaced));
   EXPECT_EQ(tiers().sign_tiers, guessed.sign_tiers);
   EXPECT_TRUE(tiers().phase_tiers.empty());
-  // It holds for the next import, too, until something else is told.
+  // This also applies to later imports, until tiers are given.
   write_annotation("a.eaf", {"B"});
   EXPECT_THAT(import_all(), ElementsAre(ImportOutcome::annotation_replaced));
   EXPECT_TRUE(tiers().phase_tiers.empty());
@@ -224,7 +223,7 @@ TEST_F(ImportTest, TiersThatThereAreNotAreNotGuessed) {
   EXPECT_EQ(tiers().phase_tiers, guessed.phase_tiers);
 }
 
-TEST_F(ImportTest, AnAnnotationTakesThePlaceOfTheOneThatItWasMadeFromAndOfNoOther) {
+TEST_F(ImportTest, AnAnnotationReplacesOnlyTheOneThatItWasMadeFrom) {
   write_motion("a.bvh", 1);
   write_annotation("a.eaf", {"A"});
   const auto stored = [&] {
@@ -233,7 +232,7 @@ TEST_F(ImportTest, AnAnnotationTakesThePlaceOfTheOneThatItWasMadeFromAndOfNoOthe
   EXPECT_THAT(import_all({.if_annotation = "none"}), ElementsAre(ImportOutcome::added));
   const std::string first = stored();
   EXPECT_EQ(first.size(), 16u);
-  // What lies there already may come again, as after an answer that was lost.
+  // The stored annotation may be sent again, as after a lost response.
   EXPECT_THAT(import_all({.if_annotation = "none"}), ElementsAre(ImportOutcome::unchanged));
   write_annotation("a.eaf", {"B"});
   for (const std::string other : {"none", "0123456789abcdef"}) {
@@ -248,14 +247,14 @@ TEST_F(ImportTest, AnAnnotationTakesThePlaceOfTheOneThatItWasMadeFromAndOfNoOthe
   }
   EXPECT_THAT(import_all({.if_annotation = first}), ElementsAre(ImportOutcome::annotation_replaced));
   EXPECT_NE(stored(), first);
-  // A motion alone asks nothing of the annotation.
+  // The condition does not apply to an import of a motion alone.
   std::filesystem::remove(files() / "a.eaf");
   write_motion("b.bvh", 1);
   EXPECT_THAT(import_all({.if_annotation = first}), ElementsAre(ImportOutcome::unchanged, ImportOutcome::added));
   EXPECT_EQ(annotation_fingerprint(*Database(folder_ / "db", kv::Access::read_only).info("b")), "none");
 }
 
-TEST_F(ImportTest, AFaceIsTakenWhetherItIsNamedOrItsMotion) {
+TEST_F(ImportTest, AFaceIsImportedIfItOrItsMotionIsAnInput) {
   write_motion("a.bvh", 1);
   write_annotation("a.eaf", {"A"});
   write_text("a.face.csv", face_text("0.5"));
@@ -269,7 +268,7 @@ TEST_F(ImportTest, AFaceIsTakenWhetherItIsNamedOrItsMotion) {
   }
 }
 
-TEST_F(ImportTest, AnotherFaceLeavesTheMotionAsItWasRead) {
+TEST_F(ImportTest, AnotherFaceKeepsTheOptionsOfTheMotion) {
   write_motion("a.bvh", 1);
   write_text("a.face.csv", face_text("0.5"));
   ImportOptions mirrored;
@@ -285,7 +284,7 @@ TEST_F(ImportTest, AnotherFaceLeavesTheMotionAsItWasRead) {
   EXPECT_EQ(database.read("a").tracks()[0].values[9], 0.25f);
 }
 
-TEST_F(ImportTest, AFaceIsTheMotionsTracks) {
+TEST_F(ImportTest, AFaceBecomesTracksOfTheMotion) {
   write_motion("a.bvh", 1);  // 200 frames, 2 s
   write_text("a.face.csv", face_text("0.5"));
   EXPECT_THAT(import_all(), ElementsAre(ImportOutcome::added));
@@ -300,13 +299,14 @@ TEST_F(ImportTest, AFaceIsTheMotionsTracks) {
   }
   EXPECT_THAT(import_all(), ElementsAre(ImportOutcome::unchanged));
   std::filesystem::remove(files() / "a.face.csv");
-  EXPECT_THAT(import_all(), ElementsAre(ImportOutcome::unchanged)) << "what is not there now is not taken away";
+  EXPECT_THAT(import_all(), ElementsAre(ImportOutcome::unchanged))
+      << "a missing face file does not remove the stored face";
   write_annotation("a.eaf", {"A"});
   EXPECT_THAT(import_all(), ElementsAre(ImportOutcome::annotation_added));
   EXPECT_EQ(Database(folder_ / "db", kv::Access::read_only).read("a").tracks().size(), 1u);
 }
 
-TEST_F(ImportTest, AFaceComesToAMotionAsItWasRead) {
+TEST_F(ImportTest, AFirstFaceKeepsTheOptionsOfTheMotion) {
   write_motion("a.bvh", 1);
   ImportOptions mirrored;
   mirrored.motion.mirror = true;
@@ -320,7 +320,7 @@ TEST_F(ImportTest, AFaceComesToAMotionAsItWasRead) {
   EXPECT_TRUE(database.info("a")->motion_facts.layout->mirrored);
 }
 
-TEST_F(ImportTest, AFaceThatChangedIsTakenOnlyWhenAsked) {
+TEST_F(ImportTest, AChangedFaceIsImportedOnlyOnRequest) {
   write_motion("a.bvh", 1);
   write_text("a.face.csv", face_text("0.5"));
   import_all();
@@ -341,7 +341,7 @@ TEST_F(ImportTest, AFaceThatChangedIsTakenOnlyWhenAsked) {
   EXPECT_TRUE(Database(folder_ / "db", kv::Access::read_only).read("a").tracks().empty());
 }
 
-TEST_F(ImportTest, AFaceThatIsShorterOrLongerThanItsMotionIsReported) {
+TEST_F(ImportTest, AFaceShorterOrLongerThanItsMotionIsReported) {
   write_motion("a.bvh", 1);
   write_text("a.face.csv", face_text("0.5", 60));
   write_motion("b.bvh", 2);
@@ -349,10 +349,10 @@ TEST_F(ImportTest, AFaceThatIsShorterOrLongerThanItsMotionIsReported) {
   import_all();
   EXPECT_THAT(notices_,
               testing::Contains(HasSubstr("the face ends 1.0 s before the motion; its last values are held")));
-  EXPECT_THAT(notices_, testing::Contains(HasSubstr("the face goes on 2.0 s after the motion; that is left out")));
+  EXPECT_THAT(notices_, testing::Contains(HasSubstr("the face continues 2.0 s after the motion; that is left out")));
 }
 
-TEST_F(ImportTest, ABrokenFaceImportsNothingOfItsRecording) {
+TEST_F(ImportTest, ABrokenFacePreventsTheImportOfItsRecording) {
   write_motion("a.bvh", 1);
   write_text("a.face.csv", face_text("x"));
   try {

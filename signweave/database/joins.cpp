@@ -27,7 +27,7 @@ RecordingJoins joins_of(const Segments& table, std::uint32_t recording, const Re
     const PhaseFeatures* last = nullptr;
     TimeSpan strokes{};
     std::size_t at = 0;
-    float path = 0;  // since the first stroke, of what lies between strokes too
+    float path = 0;  // since the first stroke, including the phases between strokes
     for (const RowId child : table.children(row)) {
       if (table.kind(child) != RowKind::phase) continue;
       const std::size_t place = at < phases.size() ? phases[at++] : features.phases.size();
@@ -55,13 +55,13 @@ RecordingJoins joins_of(const Segments& table, std::uint32_t recording, const Re
   return joins;
 }
 
-// What learning looks at, at most.
+// Limits of learning.
 constexpr std::size_t kMostRecordings = 256;
 constexpr std::size_t kMostPairs = 1024;
-constexpr std::size_t kMostOthers = 4;     // on each side of a pair
-constexpr std::size_t kMostLookedAt = 64;  // tokens of one gloss, of which those are
+constexpr std::size_t kMostOthers = 4;           // compared on each side of a pair
+constexpr std::size_t kMostTokensOfAGloss = 64;  // from which those are chosen
 
-/// Every nth of some things, so that at most `most` of them are taken.
+/// Returns the step with which at most `most` of `count` items are taken.
 std::size_t step_of(std::size_t count, std::size_t most) {
   return std::max<std::size_t>(1, (count + most - 1) / most);
 }
@@ -115,7 +115,8 @@ class Learner {
   }
 
  private:
-  /// What one in ten hands exceeds on the straight way between recorded neighbours, shoulder widths a second.
+  /// The speed that one in ten hands exceeds on the straight line between recorded neighbours, shoulder widths a
+  /// second.
   float speed_limit() const {
     std::vector<float> speeds;
     for (const Pair& pair : pairs_) {
@@ -138,17 +139,17 @@ class Learner {
     return std::max(*at, 0.1f);
   }
 
-  /// Other tokens of its gloss, evenly from all; of a gloss that has none, other signs.
+  /// Returns other tokens of the sign's gloss, evenly spread; if there are none, other signs.
   std::vector<const SignJoin*> others(const SignJoin& sign, std::size_t seed) const {
     const std::uint32_t own = table_.recording(sign.row);
     const TimeSpan own_span = table_.span(sign.row);
     std::vector<const SignJoin*> all;
     const std::vector<RowId>& tokens = tokens_of(table_.label(sign.row));
-    for (std::size_t i = 0; i < tokens.size(); i += step_of(tokens.size(), kMostLookedAt)) {
+    for (std::size_t i = 0; i < tokens.size(); i += step_of(tokens.size(), kMostTokensOfAGloss)) {
       const RowId row = tokens[i];
       const std::uint32_t other = table_.recording(row);
       if (!joins_[other]) continue;
-      // The same sign on the other hand's tier is no other token.
+      // The same sign on the tier of the other hand does not count as another token.
       const TimeSpan span = table_.span(row);
       const bool same = other == own && span.begin < own_span.end && own_span.begin < span.end;
       if (row == sign.row || same) continue;
@@ -157,7 +158,7 @@ class Learner {
     }
     std::vector<const SignJoin*> some;
     for (std::size_t i = 0; i < all.size(); i += step_of(all.size(), kMostOthers)) some.push_back(all[i]);
-    // 7919 is prime: the steps meet different signs for different pairs.
+    // 7919 is prime, so different pairs get different signs.
     for (std::size_t i = 1; all.empty() && i <= kMostOthers; ++i) {
       const SignJoin* join = signs_[(seed * 7919 + i * (signs_.size() / 5 + 1)) % signs_.size()];
       if (join->row != sign.row) some.push_back(join);
@@ -173,10 +174,10 @@ class Learner {
 
   const Segments& table_;
   mutable std::map<std::string_view, std::vector<RowId>> tokens_;
-  std::vector<std::shared_ptr<const RecordingJoins>> joins_;  ///< [recording], null: not looked at
+  std::vector<std::shared_ptr<const RecordingJoins>> joins_;  ///< [recording], null: not used
   std::vector<Pair> pairs_;
-  std::vector<const SignJoin*> signs_;  ///< that are known
-  Seconds mean_{0.5};                   ///< the time that a transition is given
+  std::vector<const SignJoin*> signs_;  ///< whose joins are known
+  Seconds mean_{0.5};                   ///< mean duration of the transitions
 };
 
 }  // namespace

@@ -23,11 +23,11 @@ struct SignJoin {
 
 /// The joins of every sign of a recording.
 struct RecordingJoins {
-  std::string why_not;                        ///< why nothing is known; empty: it is
+  std::string why_not;                        ///< why the joins are unknown; empty: they are known
   std::vector<SignJoin> signs;                ///< ascending by row
   std::shared_ptr<const CaptureNoise> noise;  ///< of its motion; null: unknown
 
-  /// Returns those of one sign, or null if there is none of this row.
+  /// Returns the joins of one sign, or null if no sign has this row.
   const SignJoin* find(RowId row) const noexcept;
 };
 

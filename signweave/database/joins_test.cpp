@@ -1,4 +1,4 @@
-// What is known of joins, and what the corpus teaches of them: learned, stored, renewed, and done without.
+// Joins, and the weights learned from the corpus: learning, storing, renewing and working without them.
 
 #include "signweave/database/joins.h"
 
@@ -44,7 +44,7 @@ struct Corpus {
   }
 };
 
-TEST(Joins, AreWhatTheFeaturesSayOfTheStrokes) {
+TEST(Joins, MatchTheFeaturesOfTheStrokes) {
   const Corpus corpus;
   const Database database = corpus.open(kv::Access::read_only);
   const Snapshot snapshot = database.snapshot();
@@ -77,7 +77,7 @@ TEST(Weights, LetRecordedNeighboursWin) {
   const TestFolder folder;
   Database::create(folder / "db", {});
   Database database(folder / "db", kv::Access::read_write);
-  for (int i = 0; i < 6; ++i) {  // an arm that rises slowly: what was recorded side by side is alike
+  for (int i = 0; i < 6; ++i) {  // an arm that rises slowly, so that neighbouring signs resemble each other
     Recording recording = recording_of("r" + std::to_string(i), i, kGlosses);
     Motion& motion = recording.motion->motion;
     const auto arm = static_cast<std::size_t>(*motion.skeleton().find("RightArm"));
@@ -114,14 +114,14 @@ TEST(Weights, AreStoredOnceAndReadAgain) {
   }
 }
 
-TEST(Weights, AreThoseOfTheCorpusAsItIsNow) {
+TEST(Weights, FollowTheCurrentCorpus) {
   const Corpus corpus(3);
   Database database = corpus.open();
   database.learn();
   const JoinWeights three = database.snapshot().learned()->weights;
   database.put(recording_of("r3", 3, kGlosses));
   EXPECT_EQ(database.snapshot().learned()->weights.pairs, 4u * 6u) << "those of three recordings are still used";
-  EXPECT_THAT(check(database).faults, IsEmpty());  // of an older state: nobody uses them
+  EXPECT_THAT(check(database).faults, IsEmpty());  // those of an older state are not used
   EXPECT_TRUE(database.learn());
   database.remove("r3");
   EXPECT_TRUE(database.learn());
@@ -151,7 +151,7 @@ TEST(Weights, HoldUntilASixteenthOfTheChangesCameAfterThem) {
   EXPECT_FALSE(database.learn());
 }
 
-TEST(Weights, ASnapshotKeepsThoseOfItsTime) {
+TEST(Weights, ASnapshotUsesThoseOfItsOwnState) {
   const Corpus corpus(3);
   Database database = corpus.open();
   database.learn();
@@ -162,7 +162,7 @@ TEST(Weights, ASnapshotKeepsThoseOfItsTime) {
   EXPECT_EQ(database.snapshot().learned()->weights.pairs, 2u * 6u);
 }
 
-TEST(Weights, DamagedOnesAreReportedAndDoneWithout) {
+TEST(Weights, DamagedOnesAreReportedAndLearnedAgain) {
   const Corpus corpus;
   JoinWeights learned;
   {
@@ -178,11 +178,11 @@ TEST(Weights, DamagedOnesAreReportedAndDoneWithout) {
     EXPECT_THAT(check_in_child(corpus.folder / "db").faults, testing::SizeIs(1));
   }
   Database database = corpus.open();
-  EXPECT_TRUE(database.learn()) << "learning mends it";
+  EXPECT_TRUE(database.learn()) << "learning repairs it";
   EXPECT_THAT(check(database).faults, IsEmpty());
 }
 
-TEST(Weights, OtherOnesThanTheCorpusTeachesAreReported) {
+TEST(Weights, ThoseThatDoNotMatchTheCorpusAreReported) {
   const Corpus corpus;
   {
     Database database = corpus.open();
@@ -197,7 +197,7 @@ TEST(Weights, OtherOnesThanTheCorpusTeachesAreReported) {
     transaction->commit();
   }
   EXPECT_THAT(check(corpus.open(kv::Access::read_only)).faults,
-              ElementsAre(HasSubstr("not what the recordings teach")));
+              ElementsAre(HasSubstr("does not match the recordings")));
 }
 
 TEST(Weights, OfRecordingsWithoutRigAreTheDefaults) {

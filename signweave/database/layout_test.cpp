@@ -1,5 +1,5 @@
-// Databases that earlier versions made are still read: testdata/databases holds one of each released layout, engine and
-// access mode.
+// Databases of earlier versions stay readable: testdata/databases has one for each released layout, engine and access
+// mode.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -26,7 +26,7 @@ namespace fs = std::filesystem;
 
 const fs::path kTestdata = fs::path(SIGNWEAVE_SOURCE_DIR) / "testdata";
 
-/// Writes a file ending in .gz beside it, unpacked and without that ending, and removes it.
+/// Unpacks a .gz file into the same folder, without that extension, and removes it.
 void unpack(const fs::path& packed) {
   const std::unique_ptr<gzFile_s, decltype(&gzclose)> from(gzopen(packed.c_str(), "rb"), gzclose);
   ASSERT_NE(from, nullptr) << packed;
@@ -45,7 +45,7 @@ std::string file_text(const fs::path& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-/// What every one of them holds: one recording, made from three files of testdata.
+/// The content of each of them: one recording, built from three files of testdata.
 struct Source {
   Motion motion = bvh::read(kTestdata / "bvh" / "signer.bvh").motion;
   std::string document = file_text(kTestdata / "eaf" / "french.eaf");
@@ -72,16 +72,17 @@ TEST(Layout, DatabasesOfEveryReleasedLayoutAreReadAndChanged) {
     ++tried;
     TestFolder folder;
     fs::copy(stored, folder / "db");
-    for (const fs::directory_entry& file : fs::directory_iterator(stored)) {  // an engine's empty megabyte
+    for (const fs::directory_entry& file :
+         fs::directory_iterator(stored)) {  // some engines' files are mostly empty and stored compressed
       if (file.path().extension() != ".gz") continue;
       const fs::path packed = folder / "db" / file.path().filename();
       unpack(packed);
     }
-    const auto look = [&](const Database& database) {
+    const auto expect_content = [&](const Database& database) {
       EXPECT_THAT(check(database).faults, ElementsAre());
       const Motion motion = database.read("signer");
       ASSERT_EQ(motion.frame_count(), 4);
-      if (name.ends_with("_compact")) {  // rounded within 1 mm, and what that gave stays to the bit
+      if (name.ends_with("_compact")) {  // rounded within 1 mm once, then read bit for bit
         EXPECT_LE(motion_db::largest_distance(motion, source.motion), 0.001);
         EXPECT_EQ(checksum(std::as_bytes(motion.rotations())), 17061407122888222734u);
       } else {
@@ -95,25 +96,25 @@ TEST(Layout, DatabasesOfEveryReleasedLayoutAreReadAndChanged) {
     };
     {
       const Database database(folder / "db", kv::Access::read_only);
-      look(database);
+      expect_content(database);
       EXPECT_EQ("layout_" + std::to_string(database.layout()), stored.parent_path().filename());
       const std::string mode = to_string(database.info("signer")->motion->mode);
       const std::string kind = name.substr(name.find('_') + 1);
       EXPECT_EQ(mode.substr(0, mode.find(':')), kind.substr(0, std::min(kind.find("_compact"), kind.find("_node"))));
       const bool has_tables = std::ranges::any_of(
           database.usage(), [](const Usage& usage) { return usage.kind == "segment tables" && usage.entries > 0; });
-      EXPECT_EQ(has_tables, database.layout() >= 4) << "older ones have them made in memory";
+      EXPECT_EQ(has_tables, database.layout() >= 4) << "older layouts build them in memory";
     }
     {
       Database database(folder / "db", kv::Access::read_write);
       database.relayout("signer", {AccessMode{AccessMode::Kind::by_frame, 2}, {}});
-      look(database);
+      expect_content(database);
       database.put(small_recording("new", 1, {"A"}));
       EXPECT_EQ(database.contents()->recordings.size(), 2u);
       database.remove("new");
       EXPECT_EQ(database.layout(), kDatabaseLayout);
     }
-    look(Database(folder / "db", kv::Access::read_only));
+    expect_content(Database(folder / "db", kv::Access::read_only));
   }
   EXPECT_GE(tried, 4u + 8u + 9u) << "those of LMDB at least";
 }

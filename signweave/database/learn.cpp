@@ -11,7 +11,7 @@
 namespace signweave {
 namespace {
 
-// A fit of durations looks at no more, evenly spread.
+// Limits of a fit of durations; recordings and transitions are evenly spread.
 constexpr std::size_t kMostFittedRecordings = 24;
 constexpr std::size_t kMostFittedTransitions = 400;
 
@@ -19,7 +19,7 @@ bool is_stroke(const Phase& phase) {
   return phase.kind == PhaseKind::stroke;
 }
 
-/// The annotated transitions of one recording.
+/// Adds the annotated transitions of one recording.
 void add_transitions(const Snapshot& snapshot, std::uint32_t recording, std::vector<TimedTransition>& out) {
   const Segments& segments = snapshot.contents().segments;
   const std::vector<Sign> signs = signs_of(segments, recording);
@@ -54,7 +54,7 @@ void count_signs(const Segments& segments, semantic_db::Learned& learned) {
   }
 }
 
-/// Learning reads as many recordings as it may; what a few more say is little beside that.
+/// True if a stored record is recent enough: a few more recordings change little.
 bool still_hold(const semantic_db::Learned& stored, std::uint64_t changes) noexcept {
   return stored.changes <= changes && changes - stored.changes <= changes / 16;
 }
@@ -67,10 +67,10 @@ std::vector<TimedTransition> timed_transitions(const Snapshot& snapshot) {
   for (std::uint32_t i = 0; i < contents.recordings.size(); ++i) {
     if (contents.recordings[i].motion && contents.recordings[i].document != 0) recordings.push_back(i);
   }
-  const std::size_t looked_at = std::min(recordings.size(), kMostFittedRecordings);
+  const std::size_t used = std::min(recordings.size(), kMostFittedRecordings);
   std::vector<TimedTransition> all;
-  for (std::size_t i = 0; i < looked_at; ++i) {
-    add_transitions(snapshot, recordings[i * recordings.size() / looked_at], all);
+  for (std::size_t i = 0; i < used; ++i) {
+    add_transitions(snapshot, recordings[i * recordings.size() / used], all);
   }
   if (all.size() <= kMostFittedTransitions) return all;
   std::vector<TimedTransition> some;
@@ -81,7 +81,7 @@ std::vector<TimedTransition> timed_transitions(const Snapshot& snapshot) {
 semantic_db::Learned learn_from(const Snapshot& snapshot) {
   semantic_db::Learned learned{.weights = learn_joins(snapshot), .durations = {}};
   const Contents& contents = snapshot.contents();
-  // Inferred transitions are gaps between signs whose own transitions lie inside them: no task is known of them.
+  // Inferred transitions are gaps between signs that contain their own transitions, so their task is unknown.
   if (contents.transitions.count > 0 && !contents.transitions.inferred) {
     learned.durations = fit_durations(timed_transitions(snapshot));
   }
@@ -117,7 +117,7 @@ std::shared_ptr<const semantic_db::Learned> Snapshot::learned() const {
 
 bool Database::learn() {
   require_writable();
-  try {  // before the contents are read, which many a time are not needed
+  try {  // before the contents are read, which are often not needed
     const std::unique_ptr<kv::ReadTransaction> before = store_->read();
     const std::optional<semantic_db::Learned> stored = semantic_db::read_learned(*before);
     if (stored && still_hold(*stored, catalogue::read_head(*before).changes)) return false;

@@ -9,13 +9,13 @@ namespace signweave {
 
 class Snapshot;
 
-/// Returns transitions between signs with annotated phases, and the task of the hands in them: at most 400, from 24
-/// recordings evenly spread over the corpus. Recordings with damaged features are left out.
+/// Returns transitions between signs with annotated phases, and the task of the hands in them: at most 400, from at
+/// most 24 recordings, both evenly spread over the corpus. Recordings with damaged features are left out.
 std::vector<TimedTransition> timed_transitions(const Snapshot& snapshot);
 
-/// Learns transitions from captured movements: one minute of each of 24 recordings and at most 600 movements, evenly
-/// spread over the corpus; cross-validated over signers if several are known, else over recordings. Recordings with
-/// damaged motion are left out.
+/// Learns transitions from captured movements: at most 600 in the middle minute of at most 24 recordings, evenly spread
+/// over the corpus; cross-validated over signers if several are known, else over recordings. Recordings with damaged
+/// motion are left out.
 ResidualModel learn_movements(const Snapshot& snapshot);
 
 /// Learns from the corpus in its current state: see learn_joins, timed_transitions and learn_movements. `changes` is 0.

@@ -9,8 +9,8 @@
 namespace signweave {
 namespace {
 
-// No more is looked at, evenly from all.
-constexpr std::size_t kMostTeachers = 24;
+// Limits of learning; recordings and movements are evenly spread.
+constexpr std::size_t kMostMovementRecordings = 24;
 constexpr std::size_t kMostMovements = 600;
 constexpr double kMostSeconds = 60;  ///< of one recording, from its middle
 
@@ -35,7 +35,7 @@ ResidualModel learn_movements(const Snapshot& snapshot) {
     if (info.motion && info.motion->frames > 0) all.push_back(&info);
   }
   std::vector<const RecordingInfo*> chosen;
-  for (std::size_t i = 0, most = std::min(all.size(), kMostTeachers); i < most; ++i) {
+  for (std::size_t i = 0, most = std::min(all.size(), kMostMovementRecordings); i < most; ++i) {
     chosen.push_back(all[i * all.size() / most]);
   }
   std::map<std::string, std::size_t> signers;
@@ -49,7 +49,7 @@ ResidualModel learn_movements(const Snapshot& snapshot) {
                                       by_signer ? signers.at(chosen[i]->signer) : i);
       recordings += found.empty() ? 0 : 1;
       spans.insert(spans.end(), found.begin(), found.end());
-    } catch (const Error& error) {  // `check` tells of it
+    } catch (const Error& error) {  // `check` reports it
       if (error.code() != ErrorCode::corrupt && error.code() != ErrorCode::not_found) throw;
     }
   }

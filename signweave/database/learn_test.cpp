@@ -1,5 +1,5 @@
-// What the corpus teaches of durations: learned, stored with the weights, renewed, and done without. joins_test.cpp
-// has the tests of the weights.
+// Durations learned from the corpus: learning, storing, renewing and working without them. joins_test.cpp tests the
+// weights.
 
 #include "signweave/database/learn.h"
 
@@ -50,29 +50,29 @@ TEST(Learning, StoresHowLongTransitionsTake) {
   EXPECT_TRUE(nearly_same(stored, learn_from(taught.open().snapshot())));
 }
 
-TEST(Learning, IsReadAndNotDoneAgain) {
+TEST(Learning, IsNotRepeatedIfStored) {
   const Taught taught;
   Learned other = taught.stored();
-  other.durations.mean = Seconds(0.75);  // what nothing teaches: so it is what was read
+  other.durations.mean = Seconds(0.75);  // not in the corpus, so it can only come from the store
   taught.store(other);
   EXPECT_EQ(taught.open().snapshot().learned()->durations.mean, Seconds(0.75));
 }
 
-TEST(Learning, OtherDurationsThanTheCorpusTeachesAreReported) {
+TEST(Learning, DurationsThatDoNotMatchTheCorpusAreReported) {
   const Taught taught;
   EXPECT_THAT(check(taught.open()).faults, IsEmpty());
   Learned other = taught.stored();
   other.durations.mean += Seconds(0.1);
   taught.store(other);
-  EXPECT_THAT(check(taught.open()).faults, ElementsAre(HasSubstr("not what the recordings teach")));
+  EXPECT_THAT(check(taught.open()).faults, ElementsAre(HasSubstr("does not match the recordings")));
   other = taught.stored();
   other.durations.mean -= Seconds(0.1);
   ++other.unphased_signs;
   taught.store(other);
-  EXPECT_THAT(check(taught.open()).faults, ElementsAre(HasSubstr("not what the recordings teach")));
+  EXPECT_THAT(check(taught.open()).faults, ElementsAre(HasSubstr("does not match the recordings")));
 }
 
-TEST(Learning, ARecordOfTheVersionBeforeIsDoneWithout) {
+TEST(Learning, ARecordOfTheVersionBeforeIsIgnored) {
   const Taught taught;
   const Learned now = taught.stored();
   ByteWriter before;  // weights alone
@@ -87,7 +87,7 @@ TEST(Learning, ARecordOfTheVersionBeforeIsDoneWithout) {
   }
   EXPECT_TRUE(nearly_same(*taught.open().snapshot().learned(), now));
   EXPECT_THAT(check(taught.open()).faults, IsEmpty());
-  EXPECT_TRUE(Database(taught.folder / "db", kv::Access::read_write).learn()) << "the next change stores it anew";
+  EXPECT_TRUE(Database(taught.folder / "db", kv::Access::read_write).learn()) << "the next change stores it again";
   EXPECT_EQ(taught.stored().durations.count, now.durations.count);
 }
 

@@ -23,9 +23,9 @@ HandTrace no_trace(std::string why_not) {
   return trace;
 }
 
-/// The place of a name among some: exactly, else but for case, for Live Link Face's own files spell EyeBlinkLeft.
+/// Returns the index of a name: an exact match, else one that ignores case, because Live Link Face writes EyeBlinkLeft.
 template <typename Names>
-std::optional<std::size_t> place_in(const Names& names, std::string_view name) {
+std::optional<std::size_t> index_in(const Names& names, std::string_view name) {
   auto at = std::ranges::find(names, name);
   if (at == names.end()) {
     const std::string folded = fold_case(name);
@@ -35,10 +35,10 @@ std::optional<std::size_t> place_in(const Names& names, std::string_view name) {
 }
 
 std::optional<std::size_t> stored_track(const RecordingInfo& info, std::string_view name) {
-  return info.motion ? place_in(info.motion->tracks, name) : std::nullopt;
+  return info.motion ? index_in(info.motion->tracks, name) : std::nullopt;
 }
 
-/// Whether a recording has a face: a track that a face capture has.
+/// True if a recording has a face: a track with a name that face captures use.
 bool is_face(const RecordingInfo& info) {
   const auto known = [](const std::string& track) {
     return std::ranges::find(face_csv::track_names(), track) != face_csv::track_names().end();
@@ -46,12 +46,12 @@ bool is_face(const RecordingInfo& info) {
   return info.motion && std::ranges::any_of(info.motion->tracks, known);
 }
 
-/// Whether a track was left out because it is 0 throughout (face_csv::resampled).
+/// True if a track was left out because it is 0 throughout (face_csv::resampled).
 bool is_at_rest(const RecordingInfo& info, std::string_view name) {
-  return is_face(info) && place_in(face_csv::track_names(), name);
+  return is_face(info) && index_in(face_csv::track_names(), name);
 }
 
-/// The rows of a recording as its table has them.
+/// Returns the rows of a recording in the order of its table.
 std::vector<MovementRow> rows_of(const SegmentTable::RecordingRef& part) {
   const SegmentTable& table = *part.table;
   const SegmentTable::RowRange range = table.recording_rows(part.recording);
@@ -59,7 +59,7 @@ std::vector<MovementRow> rows_of(const SegmentTable::RecordingRef& part) {
   rows.reserve(range.size());
   for (RowId row = range.begin; row < range.end; ++row) {
     const RowId parent = table.parent(row);
-    // A unit moves as long as it lasts.
+    // Movement of a unit is measured over its whole span, as for an annotation.
     const RowKind kind = table.kind(row) == RowKind::unit ? RowKind::annotation : table.kind(row);
     rows.push_back({.kind = kind,
                     .phase = table.phase(row),
@@ -94,12 +94,12 @@ bool MovementCache::has_track(std::string_view name) const {
 }
 
 void MovementCache::remember_track(std::string_view name) {
-  constexpr std::size_t kMostTracks = 10'000;  // as many as queries may think of
+  constexpr std::size_t kMostTracks = 10'000;  // a query may use any name
   const std::lock_guard guard(mutex_);
   if (tracks_.size() < kMostTracks) tracks_.emplace(name);
 }
 
-/// The mutex must be held.
+/// The caller must hold the mutex.
 void MovementCache::make_room(std::size_t bytes) {
   if (bytes_ + bytes > kMostBytes) {
     recordings_.clear();
@@ -115,9 +115,9 @@ HandTrace trace_stored(const kv::ReadTransaction& snapshot, const RecordingInfo&
       if (auto stored = semantic_db::read_trace(snapshot, info.document, info.name, pause)) return *std::move(stored);
     }
     if (info.motion->frames == 0) return no_trace("the motion has no frame");
-    // Borrowed for as long as this takes.
-    const std::shared_ptr<const kv::ReadTransaction> lent(std::shared_ptr<void>(), &snapshot);
-    const motion_db::StoredSource source(lent, std::make_shared<motion_db::KnownMotion>(snapshot, *info.motion));
+    // Not owned: `snapshot` outlives the source.
+    const std::shared_ptr<const kv::ReadTransaction> borrowed(std::shared_ptr<void>(), &snapshot);
+    const motion_db::StoredSource source(borrowed, std::make_shared<motion_db::KnownMotion>(snapshot, *info.motion));
     return trace_hands(source, model_of(source, info.rig, pause), pause);
   } catch (const Error& error) {
     if (error.code() != ErrorCode::corrupt) throw;
@@ -125,7 +125,7 @@ HandTrace trace_stored(const kv::ReadTransaction& snapshot, const RecordingInfo&
   }
 }
 
-/// Movement of the state that a transaction sees.
+/// Movement in the state that a transaction sees.
 class StoredMovement : public Movement {
  public:
   StoredMovement(const Database& database, std::shared_ptr<const kv::ReadTransaction> transaction,
@@ -135,9 +135,9 @@ class StoredMovement : public Movement {
         segments_(std::move(segments)),
         cache_(std::move(cache)) {}
 
-  /// From now on it stops where `limits` say so.
-  void begin(const FindLimits& limits) { watch_.begin(limits); }
-  void pause() const override { watch_.check(); }
+  /// From now on every operation stops as `limits` require.
+  void begin(const FindLimits& limits) { stop_check_.begin(limits); }
+  void pause() const override { stop_check_.check(); }
 
   ColumnValues column(Column column, std::uint32_t recording) const override {
     MovementCache::Entry& entry = at(recording);
@@ -180,14 +180,14 @@ class StoredMovement : public Movement {
   }
   bool has_track(std::string_view name) const override {
     if (cache_->has_track(name)) return true;
-    const bool found = look_at_catalogue(
+    const bool found = visit_catalogue(
         [&](const RecordingInfo& info) { return !stored_track(info, name) && !is_at_rest(info, name); });
     if (found) cache_->remember_track(name);
     return found;
   }
   std::vector<std::string> tracks() const override {
     std::set<std::string> names;
-    look_at_catalogue([&](const RecordingInfo& info) {
+    visit_catalogue([&](const RecordingInfo& info) {
       if (info.motion) names.insert(info.motion->tracks.begin(), info.motion->tracks.end());
       if (is_face(info)) names.insert(face_csv::track_names().begin(), face_csv::track_names().end());
       return true;
@@ -204,7 +204,7 @@ class StoredMovement : public Movement {
  private:
   struct TrackPlace {
     std::optional<std::size_t> stored;
-    bool at_rest = false;  ///< it is 0 throughout
+    bool at_rest = false;  ///< not stored, because it is 0 throughout
   };
   const TrackPlace& place_of_track(std::uint32_t recording, std::string_view name) const {
     const RecordingInfo& info = at(recording).info;
@@ -216,7 +216,8 @@ class StoredMovement : public Movement {
     return found->second;
   }
 
-  /// The motion of a recording that has one. Rows come recording by recording.
+  /// Returns the motion of a recording that has one. Only the last one is held: callers go through the recordings in
+  /// order.
   const MotionSource& source(std::uint32_t recording) const {
     if (source_of_ != recording) {
       source_of_.reset();
@@ -233,16 +234,16 @@ class StoredMovement : public Movement {
     return *model_;
   }
 
-  /// Calls `use(info)` for all recordings that can be read, until it returns false: then true.
+  /// Calls `use(info)` for all readable recordings until it returns false; true if it did.
   template <typename Use>
-  bool look_at_catalogue(Use&& use) const {
+  bool visit_catalogue(Use&& use) const {
     const std::uint32_t count = catalogue::read_head(*transaction_).recordings;
     for (std::uint32_t slot = 0; slot < count; ++slot) {
       pause();
       try {
         if (!use(catalogue::read_recording(*transaction_, slot))) return true;
       } catch (const Error& error) {
-        if (error.code() != ErrorCode::corrupt) throw;  // `check` tells of it
+        if (error.code() != ErrorCode::corrupt) throw;  // `check` reports it
       }
     }
     return false;
@@ -270,12 +271,12 @@ class StoredMovement : public Movement {
     return entry;
   }
 
-  /// Calls `find()`, which fills in a part of an entry, unless a thread has done so.
+  /// Calls `find()`, which fills in a part of an entry, unless another thread has already done so.
   template <typename Find>
   void find_once(MovementCache::Entry& entry, std::atomic<bool>& found, Find&& find) const {
     if (found.load(std::memory_order_acquire)) return;
     std::unique_lock lock(entry.finding, std::defer_lock);
-    while (!lock.try_lock()) {  // another search does; this one may have to stop before it has
+    while (!lock.try_lock()) {  // another search fills it in; this one may be stopped while it waits
       pause();
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }
@@ -315,7 +316,7 @@ class StoredMovement : public Movement {
           features = *std::move(stored);
         }
       } catch (const Error& error) {
-        if (error.code() != ErrorCode::corrupt) throw;  // `check` tells of it; the trace says nearly the same
+        if (error.code() != ErrorCode::corrupt) throw;  // `check` reports it; the trace serves nearly as well
       }
     }
     pause();
@@ -332,10 +333,10 @@ class StoredMovement : public Movement {
   mutable std::optional<std::uint32_t> at_;
   mutable std::shared_ptr<MovementCache::Entry> entry_;
   mutable std::map<std::string, TrackPlace, std::less<>> track_places_;  ///< of the recording `at_`
-  StopCheck watch_;
-  mutable std::optional<std::uint32_t> source_of_;  ///< the recording whose motion is at hand
+  StopCheck stop_check_;
+  mutable std::optional<std::uint32_t> source_of_;  ///< the recording of `source_` and `model_`
   mutable std::unique_ptr<motion_db::StoredSource> source_;
-  mutable std::optional<SignerModel> model_;  ///< of the same, once it was asked for
+  mutable std::optional<SignerModel> model_;  ///< once it was needed
 };
 
 std::unique_ptr<Movement> Database::movement_of(const std::shared_ptr<const kv::ReadTransaction>& snapshot,
@@ -347,7 +348,7 @@ std::unique_ptr<Movement> Database::movement_of(const std::shared_ptr<const kv::
     if (!movement_ || movement_->changes() < changes) movement_ = std::make_shared<MovementCache>(changes);
     cache = movement_;
   }
-  if (cache->changes() != changes) cache = std::make_shared<MovementCache>(changes);  // of an older state: for itself
+  if (cache->changes() != changes) cache = std::make_shared<MovementCache>(changes);  // an older state has its own
   return std::make_unique<StoredMovement>(*this, snapshot, segments, std::move(cache));
 }
 

@@ -19,13 +19,13 @@
 /// Internal to `database`: the data for query conditions on movement.
 namespace signweave {
 
-/// Returns the trace of a recording as it is stored; measured from its motion if none of this version is stored. If the
-/// motion is missing or damaged, the trace contains only the reason.
+/// Returns the stored trace of a recording; measured from its motion if none of this version is stored. If the motion
+/// is missing or damaged, the trace contains only the reason.
 HandTrace trace_stored(const kv::ReadTransaction& snapshot, const RecordingInfo& info, const Pause& pause = {});
 
-/// Caches what was read and measured for queries of one state of a database. Thread-safe. It holds at most kMostBytes,
-/// in addition to what a search is using, which stays valid: one recording for the search, and one for each of its
-/// conditions on movement.
+/// Caches the data read and measured for queries of one state of a database. Thread-safe. It holds at most kMostBytes,
+/// in addition to the entries that a search is using, which stay valid: one recording for the search, and one for each
+/// of its conditions on movement.
 class MovementCache {
  public:
   explicit MovementCache(std::uint64_t changes) : changes_(changes) {}
@@ -35,7 +35,7 @@ class MovementCache {
   /// holds the mutex.
   struct Entry {
     RecordingInfo info;
-    std::string fault;  ///< why nothing is known; empty: no fault
+    std::string fault;  ///< why `info` could not be read; empty: no fault
     std::mutex finding;
     std::atomic<bool> traced = false;
     std::shared_ptr<const HandTrace> trace;
@@ -48,7 +48,7 @@ class MovementCache {
   std::shared_ptr<Entry> find(std::uint32_t recording) const;
   /// Adds an entry unless another thread has added one; returns the one that is cached.
   std::shared_ptr<Entry> add(std::uint32_t recording, const std::shared_ptr<Entry>& entry);
-  /// To be called when an entry has grown by so many bytes.
+  /// Call when an entry has grown by this many bytes.
   void grew(std::size_t bytes);
 
   /// True if remember_track was called for this scalar track.
@@ -58,13 +58,13 @@ class MovementCache {
  private:
   void make_room(std::size_t bytes);
 
-  /// Beyond this size everything is dropped, and read again when it is needed.
+  /// Beyond this size all entries are dropped, and read again when needed.
   static constexpr std::size_t kMostBytes = std::size_t{512} << 20U;
 
   std::uint64_t changes_;
   mutable std::mutex mutex_;
   std::map<std::uint32_t, std::shared_ptr<Entry>> recordings_;
-  std::set<std::string, std::less<>> tracks_;  ///< that some recording has and a query used
+  std::set<std::string, std::less<>> tracks_;  ///< names that a query used and some recording has
   std::size_t bytes_ = 0;
 };
 

@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What a file is to an import; `product` where it is nothing to it.
+/// Returns the role of a file in an import; `product` if an import cannot read it.
 FileKind kind_of(const fs::path& path) {
   const FileFormat* format = file_format(path);
   return format == nullptr || !format->reads ? FileKind::product : format->kind;
@@ -27,8 +27,8 @@ FileKind kind_of(const fs::path& path) {
 [[noreturn]] void refuse_kind(const fs::path& path) {
   throw Error(
       ErrorCode::unsupported,
-      fmt::format("{}: neither a motion file {}, an annotation file {} nor a face capture, which is called "
-                  "as its motion, NAME.face.csv",
+      fmt::format("{}: neither a motion file {}, an annotation file {} nor a face capture, which has "
+                  "the name of its motion, NAME.face.csv",
                   path.string(), readable_extensions(FileKind::motion), readable_extensions(FileKind::annotation)));
 }
 
@@ -55,7 +55,7 @@ void take(const fs::path& path, Files& files) {
   }
 }
 
-/// The motion file of that folder and stem, the preferred one of several; or none.
+/// Returns the motion file of this folder and stem, or none; the preferred one of several.
 std::optional<fs::path> motion_called(const fs::path& stem) {
   std::error_code ignored;
   for (const FileFormat& format : file_formats()) {
@@ -67,8 +67,8 @@ std::optional<fs::path> motion_called(const fs::path& stem) {
   return std::nullopt;
 }
 
-/// Gives each motion the face capture that lies beside it, whether it was named or not; and each face that was named to
-/// its motion, whether that was named or not. A face without a motion is told.
+/// Pairs each motion with the face capture next to it, even if only the motion is an input, and each face capture with
+/// its motion, even if only the face is an input. Reports a face without a motion.
 void pair_faces(const std::vector<fs::path>& faces, std::vector<ImportJob>& jobs, std::vector<Notice>& notices) {
   std::error_code ignored;
   for (ImportJob& job : jobs) {
@@ -95,7 +95,7 @@ void pair_faces(const std::vector<fs::path>& faces, std::vector<ImportJob>& jobs
       jobs.push_back(std::move(with_motion));
     } else {
       notices.push_back(
-          {face.string(), fmt::format("a face without its motion, passed over; put it beside the motion "
+          {face.string(), fmt::format("a face without its motion, passed over; put it next to the motion "
                                       "file '{}' {}",
                                       printable(stem.filename().string()), readable_extensions(FileKind::motion))});
     }
@@ -123,14 +123,14 @@ Files walk(const std::vector<fs::path>& inputs, std::vector<Notice>& notices) {
         take(entry->path(), files);
       }
     }
-    if (fault) throw Error(ErrorCode::io, fmt::format("{}: cannot be walked: {}", input.string(), fault.message()));
+    if (fault) throw Error(ErrorCode::io, fmt::format("{}: cannot be listed: {}", input.string(), fault.message()));
     if (others > 0)
       notices.push_back({input.string(), fmt::format("{} of other kinds passed over",
                                                      others == 1 ? "1 file" : fmt::format("{} files", others))});
   }
   for (const fs::path& input : inputs) {
     if (files.motions.empty() && kind_of(input) == FileKind::motion_part) {
-      notices.push_back({input.string(), fmt::format("holds no motion of its own; name the motion files beside it {}",
+      notices.push_back({input.string(), fmt::format("holds no motion of its own; name the motion files next to it {}",
                                                      readable_extensions(FileKind::motion))});
     }
   }
@@ -141,10 +141,10 @@ Files walk(const std::vector<fs::path>& inputs, std::vector<Notice>& notices) {
   return files;
 }
 
-/// Of motion files of one name in a folder that was walked, such as a recording and what was exported from it, the
-/// preferred one stays. What was named itself stays in any case.
+/// Of several motion files with one folder and stem, such as a recording and its exports, keeps the one of the
+/// preferred format, and those that are inputs themselves.
 void prefer_one(const std::vector<fs::path>& inputs, std::vector<fs::path>& motions, std::vector<Notice>& notices) {
-  std::map<fs::path, fs::path> best;  // by folder and stem
+  std::map<fs::path, fs::path> best;  // by path without extension
   const auto rank = [](const fs::path& path) { return file_format(path) - file_formats().data(); };
   for (const fs::path& motion : motions) {
     fs::path& one = best[motion.parent_path() / motion.stem()];
@@ -153,13 +153,14 @@ void prefer_one(const std::vector<fs::path>& inputs, std::vector<fs::path>& moti
   std::erase_if(motions, [&](const fs::path& motion) {
     const fs::path& one = best[motion.parent_path() / motion.stem()];
     if (one == motion || std::find(inputs.begin(), inputs.end(), motion) != inputs.end()) return false;
-    notices.push_back({motion.string(), fmt::format("passed over for '{}' beside it; name the file itself to import it",
-                                                    printable(one.filename().string()))});
+    notices.push_back(
+        {motion.string(), fmt::format("passed over for '{}' next to it; name the file itself to import it",
+                                      printable(one.filename().string()))});
     return true;
   });
 }
 
-/// Rows of a CSV file (RFC 4180: quotes double inside quotes, a field may hold line ends).
+/// A row of a CSV file (RFC 4180: quotes are doubled inside quotes, a field may contain line breaks).
 struct Row {
   std::size_t line = 1;
   std::vector<std::string> fields;
@@ -223,16 +224,16 @@ std::vector<ImportJob> read_pairs(const fs::path& table, bool plain_files) {
     const auto path_of = [&](const std::string& text, FileKind kind) -> std::optional<fs::path> {
       if (text.empty()) return std::nullopt;
       if (plain_files && text.find_first_of("/\\") != std::string::npos) {
-        fail(fmt::format("'{}' lies in another folder; the table may only name files beside it", printable(text)));
+        fail(fmt::format("'{}' lies in another folder; the table may only name files next to it", printable(text)));
       }
       const fs::path path = fs::path(text).is_absolute() ? fs::path(text) : table.parent_path() / text;
       std::error_code ignored;
       if (!fs::exists(path, ignored)) fail(fmt::format("no file '{}'", text));
       if (kind_of(path) != kind) {
-        fail(fmt::format("'{}' is no {} file", text,
-                         kind == FileKind::motion ? "motion"
-                         : kind == FileKind::face ? "face (.face.csv)"
-                                                  : "annotation"));
+        fail(fmt::format("'{}' is not {} file", text,
+                         kind == FileKind::motion ? "a motion"
+                         : kind == FileKind::face ? "a face (.face.csv)"
+                                                  : "an annotation"));
       }
       return path;
     };
@@ -259,7 +260,7 @@ std::vector<ImportJob> read_pairs(const fs::path& table, bool plain_files) {
   return jobs;
 }
 
-/// Names of the motion files that an annotation file links. A file that cannot be read links none here: importing it
+/// Returns the names of the motion files that an annotation file links. None if the file cannot be read: importing it
 /// reports why.
 std::set<std::string> linked_motions(const fs::path& annotation) {
   std::set<std::string> names;
@@ -279,7 +280,7 @@ fs::path stem_path(const ImportJob& job) {
   return file.parent_path() / file.stem();
 }
 
-/// Stems as names where a table tells none; where two would be the same, as many folders in front as it takes.
+/// Names the jobs that a table does not name after their stems, prefixed with as many folders as make the names unique.
 void name_jobs(std::vector<ImportJob>& jobs) {
   std::vector<std::size_t> depth(jobs.size(), 0);
   for (;;) {
@@ -351,7 +352,7 @@ Pairing pair_files(const std::vector<fs::path>& inputs, const std::optional<fs::
   forget_used(files.motions);
   forget_used(files.annotations);
 
-  std::map<fs::path, std::set<std::string>> links;  // of annotation files; read only where a motion has no partner
+  std::map<fs::path, std::set<std::string>> links;  // of annotation files; read only for a motion without a partner
   std::set<fs::path> paired;
   for (const fs::path& motion : files.motions) {
     ImportJob job;

@@ -18,7 +18,7 @@ struct ImportJob {
   std::optional<std::filesystem::path> motion;
   std::optional<std::filesystem::path> annotation;
   std::optional<std::filesystem::path> face;  ///< face capture
-  bool no_face = false;                       ///< a table of pairs says that the face capture next to it is not its own
+  bool no_face = false;                       ///< a table of pairs excludes the face capture next to it
   std::string signer;
   std::optional<Seconds> offset;       ///< annotation time of frame 0, from a table of pairs
   std::optional<Seconds> face_offset;  ///< the motion's time of the face's first row, from such a table

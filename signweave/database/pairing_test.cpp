@@ -31,7 +31,7 @@ TEST_F(PairingTest, FilesPairByStemInAFolder) {
   EXPECT_THAT(paired({files()}), ElementsAre("a: a.bvh a.eaf", "b: b.BVH -", "c: - c.eaf"));
 }
 
-TEST_F(PairingTest, AStemThatIsUniquePairsAcrossFolders) {
+TEST_F(PairingTest, AUniqueStemPairsAcrossFolders) {
   write_motion("motion/a.bvh", 1);
   write_annotation("annotation/a.eaf", {"A"});
   EXPECT_THAT(paired({files()}), ElementsAre("a: a.bvh a.eaf"));
@@ -45,7 +45,7 @@ TEST_F(PairingTest, StemsThatCollideKeepTheirFolder) {
   EXPECT_THAT(paired({files()}), ElementsAre("x/a: a.bvh a.eaf", "y/a: a.bvh a.eaf"));
 }
 
-TEST_F(PairingTest, OneAnnotationServesTheMotionsThatItLinks) {
+TEST_F(PairingTest, OneAnnotationIsPairedWithAllMotionsThatItLinks) {
   write_motion("left cam.bvh", 1);
   write_motion("right.bvh", 2);
   write_annotation("session.eaf", {"A"},
@@ -54,7 +54,7 @@ TEST_F(PairingTest, OneAnnotationServesTheMotionsThatItLinks) {
   EXPECT_THAT(paired({files()}), ElementsAre("left cam: left cam.bvh session.eaf", "right: right.bvh session.eaf"));
 }
 
-TEST_F(PairingTest, ATableOfPairsDecides) {
+TEST_F(PairingTest, ATableOfPairsTakesPrecedence) {
   write_motion("a.bvh", 1);
   write_annotation("b.eaf", {"B"});
   write_text("pairs.csv", "motion,annotation,signer,offset\r\na.bvh,b.eaf,\"Dupont, Marie\",120\r\n");
@@ -68,7 +68,7 @@ TEST_F(PairingTest, ATableOfPairsDecides) {
   }
 }
 
-TEST_F(PairingTest, AFileOfAnotherKindIsRefusedByNameAndPassedOverInAFolder) {
+TEST_F(PairingTest, AFileOfAnotherKindIsRefusedAsInputAndPassedOverInAFolder) {
   write_motion("a.bvh", 1);
   write_text("notes.txt", "x");
   EXPECT_THROW(pair_files({files() / "notes.txt"}), Error);
@@ -78,7 +78,7 @@ TEST_F(PairingTest, AFileOfAnotherKindIsRefusedByNameAndPassedOverInAFolder) {
   EXPECT_THAT(pairing.notices[0].text, HasSubstr("1 file of other kinds"));
 }
 
-TEST_F(PairingTest, AFaceGoesWithTheMotionNextToItAndNoOther) {
+TEST_F(PairingTest, AFaceIsPairedOnlyWithTheMotionNextToIt) {
   write_motion("x/a.bvh", 1);
   write_motion("y/a.bvh", 2);
   write_motion("y/b.BVH", 3);
@@ -96,10 +96,10 @@ TEST_F(PairingTest, AFaceGoesWithTheMotionNextToItAndNoOther) {
   EXPECT_THAT(pairing.notices[0].text, HasSubstr("1 file of other kinds"));
   EXPECT_THAT(pairing.notices[1].where, HasSubstr("y/c.face.csv"));
   EXPECT_THAT(pairing.notices[1].text,
-              HasSubstr("a face without its motion, passed over; put it beside the motion file 'c' (.bvh"));
+              HasSubstr("a face without its motion, passed over; put it next to the motion file 'c' (.bvh"));
 }
 
-TEST_F(PairingTest, AFaceGoesWithAMotionThatATablePairs) {
+TEST_F(PairingTest, AFaceIsPairedWithAMotionThatATablePairs) {
   write_motion("a.bvh", 1);
   write_annotation("b.eaf", {"B"});
   write_text("a.face.csv", face_text("0.5"));
@@ -109,7 +109,7 @@ TEST_F(PairingTest, AFaceGoesWithAMotionThatATablePairs) {
   EXPECT_EQ(pairing.jobs[0].face, files() / "a.face.csv");
 }
 
-TEST_F(PairingTest, ATableOfPairsTakesAFaceAwayAndGivesNames) {
+TEST_F(PairingTest, ATableOfPairsExcludesAFaceAndGivesNames) {
   write_motion("a.bvh", 1);
   write_annotation("a.eaf", {"A"});
   write_text("a.face.csv", face_text("0.5"));
@@ -122,7 +122,7 @@ TEST_F(PairingTest, ATableOfPairsTakesAFaceAwayAndGivesNames) {
     EXPECT_FALSE(pairing.jobs[1].face);
   }
   EXPECT_EQ(pair_files({}, files() / "pairs.csv", true).jobs.size(), 2u);
-  // A name that is told is that, whatever there is of a shorter one.
+  // A given name is used even if a recording of a shorter name exists.
   Database database(folder_ / "db", kv::Access::read_write);
   for (const ImportJob& job : pair_files({}, files() / "pairs.csv").jobs) import_recording(database, job, {});
   write_text("pairs.csv", ",a.eaf,,,,,day 1/a\n");
@@ -136,7 +136,7 @@ TEST_F(PairingTest, ATableOfPairsTakesAFaceAwayAndGivesNames) {
       pair_files({}, files() / "pairs.csv", true);
       FAIL() << row;
     } catch (const Error& error) {
-      EXPECT_THAT(error.what(), HasSubstr("the table may only name files beside it")) << row;
+      EXPECT_THAT(error.what(), HasSubstr("the table may only name files next to it")) << row;
     }
   }
 }

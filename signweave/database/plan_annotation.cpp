@@ -58,8 +58,8 @@ void require_apart(const TierNames& names, const std::string& where) {
   }
 }
 
-/// The tiers that hold signs and phases: as given; else as given at an earlier import, if the document still has them;
-/// else guessed, with a notice.
+/// Returns the tiers that hold signs and phases: as given; else as given at an earlier import, if the document still
+/// has them; else guessed, with a notice.
 TierNames tier_names(const AnnotationDocument& document, const PlanInput& input, std::vector<Notice>& notices) {
   const ImportOptions& options = input.options;
   const std::string where = input.job.annotation->string();
@@ -96,7 +96,7 @@ void read_document(const PlanInput& input, PlannedAnnotation& planned) {
   planned.document = std::move(file.document);
 }
 
-/// The stored document; if it is damaged, that of the same file, which is to be stored again.
+/// Plans with the stored document; if it is damaged, with that of the same file, which is then stored again.
 void take_stored_document(const PlanInput& input, PlannedAnnotation& planned) {
   planned.tiers = input.known->tiers;
   try {
@@ -108,7 +108,7 @@ void take_stored_document(const PlanInput& input, PlannedAnnotation& planned) {
   }
 }
 
-/// Finds the signs. Errors and notices of tiers say in which file.
+/// Finds the signs. Adds the file to errors and notices about tiers.
 void find_signs(const PlanInput& input, PlannedAnnotation& planned) {
   const std::string where = input.job.annotation ? input.job.annotation->string() : input.name();
   try {

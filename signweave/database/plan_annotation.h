@@ -21,8 +21,9 @@ struct PlannedAnnotation {
   std::vector<Notice> notices;  ///< about the file, if it was read; else the stored ones about it
 };
 
-/// Throws Error{conflict} if the recording has another annotation than the one to be replaced, Error{bad_input} or
-/// Error{not_found} for tiers that do not fit the document, and as the readers of annotation and Database::document do.
+/// Plans the annotation. Throws Error{conflict} if the recording has another annotation than the one to be replaced,
+/// Error{bad_input} or Error{not_found} for tiers that do not fit the document, and as the readers of annotation and
+/// Database::document do.
 PlannedAnnotation plan_annotation(const PlanInput& input);
 
 }  // namespace signweave

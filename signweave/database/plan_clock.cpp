@@ -7,7 +7,7 @@
 namespace signweave {
 namespace {
 
-/// The annotation time of frame 0 that the document itself states for a motion file, or none.
+/// Returns the annotation time of frame 0 that the document states for a motion file, or none.
 std::optional<Seconds> linked_origin(const AnnotationDocument& document, const std::string& motion_file) {
   for (const LinkedFile& linked : document.linked_files) {
     for (const std::string& url : {linked.url, linked.relative_url}) {
@@ -27,7 +27,7 @@ FrameClock clock_through(const SyncPoint& first, const SyncPoint& second) {
   return clock;
 }
 
-/// The clock that the user set, or none. Throws for one that no recording can have.
+/// Returns the clock that the user set, or none. Throws for a clock that no recording can have.
 std::optional<FrameClock> given_clock(const ImportJob& job, const ImportOptions& options, FrameRate rate) {
   FrameClock clock{rate.frame_time(), Seconds(0)};
   if (options.sync.size() == 2) {
@@ -50,7 +50,7 @@ std::optional<FrameClock> given_clock(const ImportJob& job, const ImportOptions&
                           clock.origin.count(), drift));
 }
 
-/// The clock of a recording without motion: it counts once the motion is imported.
+/// Returns the clock of a recording without motion: it applies once the motion is imported.
 PlannedClock clock_without_motion(const PlanInput& input, FrameRate rate) {
   const ImportOptions& options = input.options;
   if (options.offset || input.job.offset) return {*given_clock(input.job, options, rate), true};
@@ -71,7 +71,7 @@ PlannedClock plan_clock(const PlanInput& input, const PlannedMotion& motion,
   if (const std::optional<FrameClock> given = given_clock(input.job, input.options, motion.rate)) return {*given, true};
   PlannedClock planned{.clock = {motion.rate.frame_time(), Seconds(0)},
                        .given = known != nullptr && known->clock_given};
-  if (planned.given) {  // with its drift, whatever the frame rate is now
+  if (planned.given) {  // keeps its drift, even if the frame rate differs now
     planned.clock.origin = known->clock.origin;
     if (known->motion) planned.clock.frame_time *= known->clock.frame_time / known->motion->rate.frame_time();
   } else if (document) {

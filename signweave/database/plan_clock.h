@@ -19,7 +19,7 @@ struct PlannedClock {
   bool given = false;  ///< now or at an earlier import; else it follows from the files
 };
 
-/// The clock as given now; else as given before; else as the document states; else both begin together. Throws
+/// Returns the clock as given now; else as given before; else as the document states; else both begin together. Throws
 /// Error{bad_input} for a clock that no recording can have.
 PlannedClock plan_clock(const PlanInput& input, const PlannedMotion& motion,
                         const std::optional<AnnotationDocument>& document);

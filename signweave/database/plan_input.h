@@ -10,7 +10,7 @@
 #include "signweave/database/pairing.h"
 #include "signweave/database/recording.h"
 
-/// Internal to `database`: what the steps of plan_import share.
+/// Internal to `database`: the input that the steps of plan_import share.
 namespace signweave {
 
 /// Checksums of a job's files. 0: no such file.
@@ -20,7 +20,7 @@ struct JobFingerprints {
   std::uint64_t face = 0;
 };
 
-/// What one import is planned from. Everything must outlive it.
+/// The input of the plan of one import. The referenced objects must outlive it.
 struct PlanInput {
   const Database& database;
   const ImportJob& job;

@@ -48,7 +48,7 @@ Seconds planned_face_offset(const PlanInput& input) {
       {{"replace_motion", "true"}});
 }
 
-/// What was guessed about the skeleton, and what is unusual about it.
+/// Adds notices about guesses and peculiarities of the skeleton.
 void add_rig_notices(const PlanInput& input, const Motion& motion, std::vector<Notice>& notices) {
   const RigNames& names = input.options.rig        ? *input.options.rig
                           : input.known != nullptr ? input.known->rig
@@ -61,7 +61,7 @@ void add_rig_notices(const PlanInput& input, const Motion& motion, std::vector<N
   }
 }
 
-/// The stored motion without its face, read with the options of its first import.
+/// Returns the stored motion without its face, with the facts of its import.
 MotionPart stored_part(const PlanInput& input) {
   const RecordingInfo& known = *input.known;
   Motion stored = input.database.read(known.name);
@@ -73,7 +73,7 @@ MotionPart stored_part(const PlanInput& input) {
   return part;
 }
 
-/// The motion of the file. Options that are not given are those of an earlier import.
+/// Reads the motion file. If no options are given, those of an earlier import apply.
 MotionPart part_from_file(const PlanInput& input, std::vector<Notice>& notices) {
   const ImportJob& job = input.job;
   motion_file::ReadOptions options = input.options.motion;
@@ -129,7 +129,7 @@ MotionDecision decide_motion(const PlanInput& input) {
   const bool replace = input.options.replace_motion;
   decision.stores = input.job.motion && (!same_motion || decision.face_added || decision.face_changed || replace);
   if (decision.face_changed && !replace) refuse_face(input);
-  // A first face replaces nothing, so it needs no permission.
+  // A first face replaces nothing, so options.replace_motion is not needed.
   if (decision.stores && input.motion_known() && !decision.face_added && !replace) refuse_motion(input);
   return decision;
 }

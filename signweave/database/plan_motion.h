@@ -12,7 +12,7 @@
 /// Internal to `database`: the part of an import plan about the motion and its face.
 namespace signweave {
 
-/// What an import does with motion and face, decided by checksums and options; the motion is not read yet.
+/// The decision what to do with motion and face, made by checksums and options before the motion is read.
 struct MotionDecision {
   bool stores = false;        ///< a motion is stored
   bool face_added = false;    ///< because the stored motion, which is the same, gets its first face
@@ -20,7 +20,7 @@ struct MotionDecision {
   Seconds face_offset{0};     ///< the motion's time of the face's first row
 };
 
-/// Throws Error{conflict} for a changed motion or face that options.replace_motion does not allow; also as
+/// Decides that. Throws Error{conflict} for a changed motion or face unless options.replace_motion; also as
 /// given_face_offset does.
 MotionDecision decide_motion(const PlanInput& input);
 
@@ -32,10 +32,11 @@ struct PlannedMotion {
   std::vector<Notice> notices;
 };
 
-/// Reads what is to be stored. Throws as the readers of motion and face do.
+/// Reads the motion to be stored. Throws as the readers of motion and face do.
 PlannedMotion plan_motion(const PlanInput& input, const MotionDecision& decision);
 
-/// Throws if the mapping file of this import, or of an earlier one, does not fit the motion.
+/// Throws Error{bad_input} or Error{not_found} if the mapping file of this import, or of an earlier one, does not fit
+/// the motion.
 void check_rig(const PlanInput& input, const PlannedMotion& motion);
 
 }  // namespace signweave

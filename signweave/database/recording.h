@@ -67,7 +67,7 @@ struct Recording {
   std::optional<RigNames> rig;  ///< from a mapping file of the skeleton; none: unchanged
 };
 
-/// What a database knows about a recording without reading its motion or document.
+/// The catalogue entry of a recording: its properties without motion and document.
 /// More than fifteen members: each is a field of the catalogue entry.
 struct RecordingInfo {
   std::string name;
@@ -89,7 +89,7 @@ struct RecordingInfo {
   friend bool operator==(const RecordingInfo&, const RecordingInfo&) = default;
 };
 
-/// What a database holds under some names at one moment; none: no recording of this name.
+/// The catalogue entries of some names at one moment; none: no recording of this name.
 using KnownRecordings = std::map<std::string, std::optional<RecordingInfo>>;
 
 /// Throws Error{bad_input} unless a recording may have this name: 1 to 1000 bytes of UTF-8, not only spaces.

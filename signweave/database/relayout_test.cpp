@@ -18,7 +18,7 @@ using testing::HasSubstr;
 
 constexpr const char* kModes[] = {"full", "by_frame:16", "by_frame", "by_joint", "by_joint_and_frame:7"};
 
-/// Faces too, since they lie in records of their own.
+/// Includes faces, since they are stored in separate records.
 Recording with_face(const std::string& name, int seed) {
   Recording recording = small_recording(name, seed, {"A", "B"});
   ScalarTrack track{.name = "jawOpen", .values = {}};
@@ -44,7 +44,7 @@ class RelayoutTest : public testing::TestWithParam<std::string> {
 INSTANTIATE_TEST_SUITE_P(Engines, RelayoutTest, testing::ValuesIn(kv::engines()),
                          [](const auto& row) { return row.param; });
 
-TEST_P(RelayoutTest, FromEveryModeToEveryModeTheBitsStay) {
+TEST_P(RelayoutTest, EveryChangeOfModeKeepsEveryBit) {
   Database database(path(), kv::Access::read_write);
   database.put(with_face("a", 1));
   database.put(with_face("b", 2));
@@ -70,7 +70,7 @@ TEST_P(RelayoutTest, FromEveryModeToEveryModeTheBitsStay) {
   EXPECT_THAT(check(database).faults, ElementsAre());
 }
 
-TEST_P(RelayoutTest, DoneTwiceItDoesNothing) {
+TEST_P(RelayoutTest, TheSecondTimeItDoesNothing) {
   Database database(path(), kv::Access::read_write);
   database.put(with_face("a", 1));
   EXPECT_TRUE(database.relayout("a", {AccessMode{AccessMode::Kind::by_joint, 0}, {}}));
@@ -83,7 +83,7 @@ TEST_P(RelayoutTest, DoneTwiceItDoesNothing) {
   EXPECT_FALSE(database.relayout("a", {fitted, {}}));
 }
 
-TEST_P(RelayoutTest, InterruptedItLeavesTheOld) {
+TEST_P(RelayoutTest, AnInterruptedOneKeepsTheOldPackets) {
   Database database(path(), kv::Access::read_write);
   database.put(small_recording("a", 1, {"A"}, 4'000));
   const std::optional<motion_db::StoredMotion> stored = database.info("a")->motion;
@@ -99,7 +99,7 @@ TEST_P(RelayoutTest, InterruptedItLeavesTheOld) {
   EXPECT_EQ(database.engine().entries, entries);
 }
 
-TEST_P(RelayoutTest, ADamagedMotionIsKeptAsItIs) {
+TEST_P(RelayoutTest, ADamagedMotionIsNotChanged) {
   Database database(path(), kv::Access::read_write);
   database.put(small_recording("a", 1, {"A"}));
   const std::optional<motion_db::StoredMotion> stored = database.info("a")->motion;
@@ -121,7 +121,7 @@ TEST_P(RelayoutTest, ADamagedMotionIsKeptAsItIs) {
   EXPECT_TRUE(same_poses(database.read("a", {0, 200}), small_motion(300, 1).slice({0, 200}))) << "the rest is readable";
 }
 
-TEST_P(RelayoutTest, AWrongNameOrNoMotionChangesNothing) {
+TEST_P(RelayoutTest, AnUnknownNameOrAMissingMotionChangesNothing) {
   Database database(path(), kv::Access::read_write);
   Recording annotation = small_recording("words", 1, {"A"});
   annotation.motion.reset();
@@ -130,14 +130,14 @@ TEST_P(RelayoutTest, AWrongNameOrNoMotionChangesNothing) {
   EXPECT_THROW(database.relayout("wrods", {AccessMode{AccessMode::Kind::full, 0}, {}}), Error);
 }
 
-TEST_P(RelayoutTest, MotionsToComeTakeTheModeThatWasSet) {
+TEST_P(RelayoutTest, LaterMotionsUseTheModeThatWasSet) {
   Database database(path(), kv::Access::read_write);
   database.set_storage({AccessMode{AccessMode::Kind::by_joint, 0}, {}});
   database.put(small_recording("a", 1, {"A"}));
   EXPECT_EQ(to_string(database.info("a")->motion->mode), "by_joint");
 }
 
-TEST_P(RelayoutTest, ACompactMotionIsRoundedOnceAndThenKeptToTheBit) {
+TEST_P(RelayoutTest, ACompactMotionIsRoundedOnceAndThenKeptBitForBit) {
   Database database(path(), kv::Access::read_write);
   const Motion captured = with_face("a", 1).motion->motion;
   database.put(with_face("a", 1));
@@ -163,14 +163,14 @@ TEST_P(RelayoutTest, ACompactMotionIsRoundedOnceAndThenKeptToTheBit) {
   EXPECT_THAT(check(database).faults, ElementsAre());
 }
 
-TEST_P(RelayoutTest, MotionsToComeAreRoundedWhereTheDatabaseSaysSo) {
+TEST_P(RelayoutTest, LaterMotionsAreRoundedWithTheToleranceThatWasSet) {
   Database::create(folder_ / "small", {.engine = GetParam(), .tolerance = 0.0005f});
   Database database(folder_ / "small", kv::Access::read_write);
   database.put(with_face("a", 1));
   const Motion rounded = database.read("a");
   EXPECT_EQ(database.info("a")->motion->tolerance, 0.0005f);
   EXPECT_LE(motion_db::largest_distance(rounded, with_face("a", 1).motion->motion), 0.0005);
-  // What was rounded before, as when a face is added to it, is stored as it is.
+  // A motion that was rounded before, as when a face is added to it, is stored unchanged.
   Recording again = with_face("a", 1);
   again.motion = MotionPart{.motion = rounded, .rounded_within = 0.0005f};
   database.put(again);

@@ -10,8 +10,8 @@
 namespace signweave::tables {
 namespace {
 
-/// Calls change(next) with what counts generations up in the head. Where the stored tables are damaged, or there are
-/// none (a database of an older layout), they are made anew from the recordings' own segments.
+/// Calls change(next), where `next` takes generations from the head. If the stored tables are damaged or missing (a
+/// database of an older layout), rebuilds them from the recordings' own segments.
 template <typename Change>
 bool change_tables(kv::WriteTransaction& transaction, Change&& change) {
   catalogue::Head head = catalogue::read_head(transaction);
@@ -71,7 +71,7 @@ void put(kv::WriteTransaction& transaction, const RecordingInfo& info, const Seg
 
 void remove(kv::WriteTransaction& transaction, const std::string& name) {
   change_tables(transaction, [&](const semantic_db::NextGeneration& next) {
-    if (name.empty()) throw Error(ErrorCode::corrupt, "what it was called is not known");
+    if (name.empty()) throw Error(ErrorCode::corrupt, "the name of the removed recording is unknown");
     semantic_db::remove_from_tables(transaction, name, next);
     return true;
   });
@@ -107,13 +107,13 @@ std::shared_ptr<const Segments> Database::stored_segments(
   try {
     read = semantic_db::read_tables(snapshot);
   } catch (const Error& error) {
-    if (error.code() != ErrorCode::corrupt) throw;  // `check` tells of it
+    if (error.code() != ErrorCode::corrupt) throw;  // `check` reports it
   }
   std::vector<std::string> faults;
   auto made =
       std::make_shared<const Segments>(read ? *std::move(read) : Segments(tables::table_of_all(*snapshot, faults)));
   const std::lock_guard guard(mutex_);
-  if (segments_ && segments_at_ > changes) return made;  // another thread has seen a newer state: it stays
+  if (segments_ && segments_at_ > changes) return made;  // keep the newer state that another thread has cached
   segments_ = made;
   segments_at_ = changes;
   return made;

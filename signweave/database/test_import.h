@@ -37,7 +37,7 @@ class ImportTest : public testing::Test {
   }
   void write_text(const std::string& name, const std::string& text) { std::ofstream(files() / name) << text; }
 
-  /// Imports everything and tells what became of it.
+  /// Imports everything and returns the outcomes; the notices are in notices_.
   std::vector<ImportOutcome> import_all(const ImportOptions& options = {}) {
     Database database(folder_ / "db", kv::Access::read_write);
     std::vector<ImportOutcome> outcomes;

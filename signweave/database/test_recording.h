@@ -15,7 +15,7 @@ namespace signweave::testing_database {
 
 using kv::TestFolder;
 
-/// A motion of two joints whose every number depends on `seed`, so that no two are alike.
+/// A motion of two joints whose numbers depend on `seed`, so that motions of different seeds differ.
 inline Motion small_motion(std::int64_t frames, int seed) {
   const auto skeleton = std::make_shared<const Skeleton>(
       std::vector<Joint>{{"Hips", kNoJoint, {0, 1, 0}, true}, {"Hand", 0, {0.5f, 0, 0}, false}},

@@ -9,7 +9,7 @@
 
 namespace signweave::testing_database {
 
-/// A person with arms, of whom the right one goes up and down; faster with a larger seed.
+/// A body whose right arm moves up and down, faster with a larger seed.
 inline Motion signing(std::int64_t frames, int seed) {
   std::vector<Joint> joints = {{"Hips", kNoJoint, {0, 0.95f, 0}, true},
                                {"Spine", 0, {0, 0.2f, 0}, false},

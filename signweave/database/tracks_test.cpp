@@ -22,8 +22,8 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-/// Face captures beside motions, imported, and asked about. A recording has signs A to E of 400 ms, each with its
-/// stroke from 100 to 300 ms.
+/// Queries of face captures imported with motions. A recording has signs A to E of 400 ms, each with its stroke from
+/// 100 to 300 ms.
 class TracksTest : public testing::Test {
  protected:
   TracksTest() {
@@ -36,7 +36,7 @@ class TracksTest : public testing::Test {
     bvh::write(files() / (name + ".bvh"), motion, bvh::default_layout(motion.skeleton()));
     eaf::write(files() / (name + ".eaf"), small_document({"A", "B", "C", "D", "E"}));
   }
-  /// A face capture as the program writes it.
+  /// Returns a face capture as the capture program writes it.
   void write_face(const std::string& name, const std::vector<ScalarTrack>& tracks) {
     Motion motion = small_motion(static_cast<std::int64_t>(tracks.front().values.size()), 1);
     for (const ScalarTrack& track : tracks) motion.add_track(track);
@@ -77,7 +77,7 @@ class SmileTest : public TracksTest {
   }
 };
 
-TEST_F(SmileTest, AFaceIsFoundByWhatItDoesInAStroke) {
+TEST_F(SmileTest, AStrokeIsFoundByTheFaceTracksInIt) {
   EXPECT_THAT(found("phase = stroke & track(mouthSmileLeft) > 0.8"),
               ElementsAre("smile B stroke", "smile C stroke", "smile D stroke"));
   EXPECT_THAT(found("gloss =~ /.*/ & track(mouthSmileLeft) > 0.5"),
@@ -91,14 +91,14 @@ TEST_F(SmileTest, AFaceIsFoundByWhatItDoesInAStroke) {
   EXPECT_THAT(found("gloss = A & track(MouthSmileLeft) > 0"), ElementsAre("smile A")) << "as the file spells it";
 }
 
-TEST_F(SmileTest, AColumnThatWasLeftOutIsZeroWhereAFaceIsAndElseNotKnown) {
+TEST_F(SmileTest, AColumnThatWasLeftOutIsZeroWithAFaceAndUnknownWithout) {
   EXPECT_THAT(found("gloss =~ /[AB]/ & track(jawOpen) <= 0"), ElementsAre("smile A", "smile B"));
   EXPECT_THAT(found("track(jawOpen) > 0"), IsEmpty());
   EXPECT_THAT(found("gloss = A & !(track(jawOpen) <= 0)"), ElementsAre("plain A"));
   EXPECT_THAT(found("gloss = A & !(track(jawOpen) > 0)"), ElementsAre("plain A", "smile A"));
 }
 
-TEST_F(SmileTest, ATrackThatNoRecordingHasIsAFault) {
+TEST_F(SmileTest, ATrackThatNoRecordingHasIsAnError) {
   EXPECT_EQ(fault("gloss = A & track(jawOpn) > 0"),
             "track(\"jawOpn\"): no recording of this database has such a scalar track; did you mean jawOpen?");
   {
@@ -121,7 +121,7 @@ TEST_F(SmileTest, StopsWhenItIsCancelled) {
   EXPECT_THROW(found("track(mouthSmileLeft) > 0.8", limits), Error);
 }
 
-TEST_F(SmileTest, EveryAccessModeGivesTheSame) {
+TEST_F(SmileTest, EveryAccessModeGivesTheSameAnswers) {
   Database database(folder_ / "db", kv::Access::read_write);
   for (const char* mode : {"full", "by_frame:16", "by_joint", "by_joint_and_frame:16"}) {
     database.relayout("smile", {.mode = parse_access_mode(mode), .tolerance = {}});

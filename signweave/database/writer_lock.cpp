@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::size_t kLongestLine = 500;
 
-/// The line in the lock file.
+/// Returns the line in the lock file, or "another process".
 std::string line_of(int file) {
   char text[kLongestLine];
   const ssize_t got = ::pread(file, text, sizeof text, 0);
@@ -54,7 +54,7 @@ void WriterLock::announce(std::string_view who) noexcept {
         who.empty() ? fmt::format("process {}\n", ::getpid())
                     : fmt::format("{} (process {})\n", printable(who.substr(0, kLongestLine / 4)), ::getpid());
     if (::ftruncate(file_, 0) == 0) static_cast<void>(::pwrite(file_, line.data(), line.size(), 0));
-  } catch (const std::exception&) {  // a full disk keeps nobody from changing what fits
+  } catch (const std::exception&) {  // a full disk must not prevent opening the database
   }
 }
 

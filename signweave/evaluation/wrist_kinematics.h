@@ -39,7 +39,7 @@ class WristMeter {
   std::vector<double> squared_jerks_;
 };
 
-/// A wrist that moves no farther than this is still: it has no peak speed and no smoothness. Metres. (ours)
+/// A wrist that moves at most this far counts as still: it has no peak speed and no smoothness. Metres. (ours)
 inline constexpr double kStill = 0.01;
 
 }  // namespace signweave

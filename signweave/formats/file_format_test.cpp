@@ -23,7 +23,7 @@ TEST(FileFormats, HaveEachExtensionOnceAndSayWhatTheyHold) {
   std::set<std::string_view> extensions;
   for (const FileFormat& format : file_formats()) {
     EXPECT_TRUE(extensions.insert(format.extension).second) << format.extension;
-    EXPECT_TRUE(format.reads || format.writes) << format.extension;
+    EXPECT_TRUE(format.reads || format.writes()) << format.extension;
     EXPECT_FALSE(format.name.empty() || format.holds.empty() || format.lost.empty() || format.media_type.empty());
     EXPECT_EQ(format.extension, file_format(std::string("x") + std::string(format.extension))->extension);
   }
@@ -36,7 +36,7 @@ TEST(FileFormats, ThatAreWrittenAndNoOthersHaveAWriter) {
       FAIL() << format.extension;
     } catch (const Error& error) {
       // A writer asks for its content; without a writer the extension is wrong.
-      EXPECT_EQ(error.code(), format.writes ? ErrorCode::not_found : ErrorCode::bad_input) << error.what();
+      EXPECT_EQ(error.code(), format.writes() ? ErrorCode::not_found : ErrorCode::bad_input) << error.what();
     }
   }
 }

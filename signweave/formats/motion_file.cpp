@@ -8,69 +8,12 @@
 #include "signweave/core/atomic_file.h"
 #include "signweave/core/bytes.h"
 #include "signweave/core/text.h"
-#include "signweave/formats/asf/asf.h"
-#include "signweave/formats/fbx/fbx.h"
 #include "signweave/formats/file_format.h"
-#include "signweave/formats/gltf/read.h"
 
 namespace signweave::motion_file {
 namespace {
 
 namespace fs = std::filesystem;
-
-File read_bvh(const fs::path& path, const ReadOptions& options) {
-  bvh::File file = bvh::read(path, {.up = options.up,
-                                    .unit = options.unit,
-                                    .root_unit = options.root_unit,
-                                    .root_columns = options.root_columns,
-                                    .mirror = options.mirror,
-                                    .progress = options.progress});
-  return {.motion = std::move(file.motion),
-          .layout = std::move(file.layout),
-          .notices = std::move(file.notices),
-          .format = {}};
-}
-
-File read_asf(const fs::path& path, const ReadOptions& options) {
-  asf::File file =
-      asf::read(path, {.skeleton = options.skeleton.empty() ? std::nullopt : std::optional(options.skeleton),
-                       .unit = options.unit,
-                       .up = options.up,
-                       .rate = options.rate,
-                       .progress = options.progress});
-  return {.motion = std::move(file.motion), .layout = {}, .notices = std::move(file.notices), .format = {}};
-}
-
-std::vector<fs::path> with_skeleton(const fs::path& path, const ReadOptions& options) {
-  return {path, options.skeleton.empty() ? asf::skeleton_of(path) : options.skeleton};
-}
-
-File read_fbx(const fs::path& path, const ReadOptions& options) {
-  fbx::File file =
-      fbx::read(path, {.take = options.take, .rate = options.rate, .unit = options.unit, .progress = options.progress});
-  return {.motion = std::move(file.motion), .layout = {}, .notices = std::move(file.notices), .format = {}};
-}
-
-File read_gltf(const fs::path& path, const ReadOptions& options) {
-  gltf::ReadFile file = gltf::read(
-      path, {.take = options.take, .rate = options.rate, .unit = options.unit, .progress = options.progress});
-  return {.motion = std::move(file.motion),
-          .layout = {},
-          .notices = std::move(file.notices),
-          .format = {},
-          .declarations = std::move(file.declarations)};
-}
-
-std::vector<fs::path> with_buffers(const fs::path& path, const ReadOptions&) {
-  std::vector<fs::path> files = gltf::files_of(path);
-  std::error_code ignored;  // reading tells what is not there
-  std::erase_if(files, [&](const fs::path& file) { return file != path && !fs::is_regular_file(file, ignored); });
-  return files;
-}
-
-std::vector<fs::path> only_itself(const fs::path& path, const ReadOptions&) {
-  return {path};
-}
 
 /// One reading option: the parameter of an import and its value.
 struct Telling {
@@ -94,32 +37,15 @@ std::vector<Telling> tellings(const ReadOptions& options) {
           {"take", options.take}};  // the last, for a name may hold anything
 }
 
-struct MotionReader {
-  std::string_view extension;
-  std::string_view takes;  ///< the options that it knows, each between blanks
-  File (*read)(const fs::path&, const ReadOptions&);
-  std::vector<fs::path> (*files)(const fs::path&, const ReadOptions&);  ///< everything that is read
-};
-
-constexpr MotionReader kMotionReaders[] = {
-    {".bvh", " up unit root_unit root_order mirror ", read_bvh, only_itself},
-    {".amc", " up unit source_rate skeleton ", read_asf, with_skeleton},
-    {".fbx", " unit source_rate take ", read_fbx, only_itself},
-    {".glb", " unit source_rate take ", read_gltf, with_buffers},
-    {".gltf", " unit source_rate take ", read_gltf, with_buffers},
-};
-
 const MotionReader& reader_for(const fs::path& path) {
   const FileFormat* format = file_format(path);
-  for (const MotionReader& reader : kMotionReaders) {
-    if (format != nullptr && format->extension == reader.extension) return reader;
-  }
+  if (format != nullptr && format->reader.read != nullptr) return format->reader;
   throw Error(ErrorCode::unsupported,
               fmt::format("{}: is not a motion file {}", path.string(), readable_extensions(FileKind::motion)));
 }
 
 bool knows(const MotionReader& reader, std::string_view option) {
-  return reader.takes.find(fmt::format(" {} ", option)) != std::string_view::npos;
+  return reader.options.find(fmt::format(" {} ", option)) != std::string_view::npos;
 }
 
 }  // namespace

@@ -15,7 +15,7 @@
 #include "signweave/rig/rig_map.h"
 #include "signweave/score/result.h"
 
-/// The table of writers: a recording or a synthesis as a file of any format that is written (see file_format.h).
+/// A recording or a synthesis as a file of any format that has a writer (see file_format.h).
 ///
 ///     save(synthesize(database, parse_utterance("DEMAIN MATIN")).result, {"demain.glb", "demain.eaf"});
 namespace signweave {

@@ -197,7 +197,7 @@ class LmdbStore final : public KvStore {
   }
 
  private:
-  /// The bytes of the pages that hold entries, and of the two at the head of the file.
+  /// The bytes of the pages with entries, and of the two pages at the head of the file.
   std::uint64_t bytes_used() const {
     MDB_stat tree{};
     const int code = ::mdb_env_stat(environment_->get(), &tree);

@@ -196,11 +196,11 @@ class TokyoStore final : public PlainStore {
   // or 700 ms on a shared disk; this way they take 5. (What HDBOTSYNC would add: in the few milliseconds between a
   // change in the map and the flush of the log below, the system must not write that page out before a power failure.)
   void commit() override {
-    need(::fdatasync(file_->walfd) == 0, "committing");  // what undoes the change,
-    need(::tchdbmemsync(file_, true), "committing");     // the change,
-    need(::tchdbtrancommit(file_), "committing");        // the end of the change: the log is emptied, and after a power
-    changing_ = false;                                   // cut must not be there again
-    need(::fdatasync(file_->walfd) == 0, "committing");
+    need(::fdatasync(file_->walfd) == 0, "committing");  // first the log that can undo the change,
+    need(::tchdbmemsync(file_, true), "committing");     // then the change;
+    need(::tchdbtrancommit(file_), "committing");        // this ends the change and empties the log,
+    changing_ = false;
+    need(::fdatasync(file_->walfd) == 0, "committing");  // which must stay empty after a power failure
   }
   void abort() override {
     if (!changing_) return;

@@ -18,8 +18,8 @@ constexpr std::int64_t kChunk = 64;
 
 }  // namespace
 
-LiveScore::LiveScore(SharedSigningCache& base, const PlayerOptions& options)
-    : base_(base), options_(options), open_(base.database()), queue_(base, open_, options_) {}
+LiveScore::LiveScore(SharedSigningCache& cache, const PlayerOptions& options)
+    : cache_(cache), options_(options), open_(cache.database()), queue_(cache, open_, options_) {}
 
 std::int64_t LiveScore::history() const noexcept {
   return setup_ ? context_frames(setup_->header.rate) : 1;
@@ -105,7 +105,7 @@ std::shared_ptr<const Motion> LiveScore::join(LiveClip& a, LiveClip& b) {
   std::string key;
   if (!a.key.empty() && !b.key.empty()) {
     key = fmt::format("{}|{}|{}|{}", setup_->key, a.key, b.key, b.captured.pause_before.count());
-    if (const std::shared_ptr<const MadeTransition> made = base_.transitions().find(key)) {
+    if (const std::shared_ptr<const MadeTransition> made = cache_.transitions().find(key)) {
       a.placed.after = 0;
       b.placed.before = 0;
       place_after(a.placed, b.placed, made->cuts);
@@ -117,8 +117,8 @@ std::shared_ptr<const Motion> LiveScore::join(LiveClip& a, LiveClip& b) {
   auto frames = std::make_shared<Motion>();
   const JunctionCuts cuts = setup_->builder->join(a, b, *frames);
   if (!key.empty()) {
-    base_.transitions().keep(key,
-                             std::make_shared<const MadeTransition>(MadeTransition{cuts, b.placed.standing, frames}));
+    cache_.transitions().keep(key,
+                              std::make_shared<const MadeTransition>(MadeTransition{cuts, b.placed.standing, frames}));
   }
   return frames;
 }

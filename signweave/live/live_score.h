@@ -27,7 +27,7 @@ namespace signweave {
 /// thread.
 class LiveScore {
  public:
-  LiveScore(SharedSigningCache& base, const PlayerOptions& options);
+  LiveScore(SharedSigningCache& cache, const PlayerOptions& options);
 
   // Each of these gets the first frame that was not taken (`next`) and the ring with the frames before it. The timeline
   // may end earlier afterwards, but not before `next`. Throws as PlaceQueue; then nothing has changed.
@@ -133,7 +133,7 @@ class LiveScore {
   void report_places(const Entry& entry, std::int64_t from);
   Milliseconds time_of(std::int64_t frames) const noexcept;
 
-  SharedSigningCache& base_;
+  SharedSigningCache& cache_;
   PlayerOptions options_;
   OpenRecordings open_;
   PlaceQueue queue_;

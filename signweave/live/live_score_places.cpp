@@ -35,7 +35,7 @@ std::shared_ptr<const MotionSource> LiveScore::on_skeleton(const RecordingInfo& 
   std::weak_ptr<const MotionSource>& known = bodies_.shown[info.motion->generation];
   std::shared_ptr<const MotionSource> shown = known.lock();
   if (!shown) {
-    auto mapping = base_.mapping(open_.snapshot(), info.name, setup_->header.layout_from, *setup_->header.skeleton);
+    auto mapping = cache_.mapping(open_.snapshot(), info.name, setup_->header.layout_from, *setup_->header.skeleton);
     known = shown = std::make_shared<RetargetedSource>(std::move(source), std::move(mapping));
   }
   return shown;
@@ -70,7 +70,7 @@ void LiveScore::rest_in(const std::string& recording) {
                          .clock = info.clock,
                          .signs = {},
                          .fingerprint = info.motion_facts.fingerprint};
-  setup_ = set_up(base_, open_.snapshot(), contents, first, options_);
+  setup_ = set_up(cache_, open_.snapshot(), contents, first, options_);
   if (options_.idle != Idle::living_rest) return;
   chain_.begin(place_rest(*setup_));
   tail().placed.core = end();
@@ -104,7 +104,7 @@ void LiveScore::sign_next() {
   clip->captured.whole = signs.whole;
   clip->captured.signs = signs.signs;
   clip->captured.sign_places = std::move(sign_places);
-  if (!setup_) setup_ = set_up(base_, open_.snapshot(), decision.contents, clip->captured, options_);
+  if (!setup_) setup_ = set_up(cache_, open_.snapshot(), decision.contents, clip->captured, options_);
   setup_->builder->place_sign(*clip);
   clip->key = key_of(clip->captured);
 

@@ -9,8 +9,8 @@
 
 namespace signweave {
 
-PlaceQueue::PlaceQueue(SharedSigningCache& base, OpenRecordings& open, const PlayerOptions& options)
-    : base_(base), open_(open), options_(options), loop_(options.loop) {}
+PlaceQueue::PlaceQueue(SharedSigningCache& cache, OpenRecordings& open, const PlayerOptions& options)
+    : cache_(cache), open_(open), options_(options), loop_(options.loop) {}
 
 void PlaceQueue::check(const Utterance& utterance, bool after_those_waiting) const {
   if (utterance.places.empty()) return;
@@ -29,7 +29,7 @@ void PlaceQueue::check(const Utterance& utterance, bool after_those_waiting) con
     throw Error(ErrorCode::bad_input, fmt::format("a pause of {} ms is longer than {} ms; leave out some of its signs",
                                                   place.pause_before.count(), kLongestPause.count()));
   }
-  base_.check(base_.database().contents(), utterance.places);
+  cache_.check(cache_.database().contents(), utterance.places);
 }
 
 void PlaceQueue::replace(const Utterance& utterance) {
@@ -67,7 +67,7 @@ const PlaceQueue::Decision& PlaceQueue::decide(std::size_t place) {
   if (decision) return *decision;
   const Snapshot& snapshot = open_.snapshot();
   const std::shared_ptr<const Contents>& contents = snapshot.shared_contents();
-  const std::shared_ptr<const std::vector<Candidate>> own = base_.candidates(contents, places_[place]);
+  const std::shared_ptr<const std::vector<Candidate>> own = cache_.candidates(contents, places_[place]);
   if (own->size() == 1) {
     decision = std::make_unique<const Decision>(Decision{contents, own->front()});
     return *decision;
@@ -79,12 +79,12 @@ const PlaceQueue::Decision& PlaceQueue::decide(std::size_t place) {
   choices.push_back({*own, places_[place].pause_before});
   for (std::size_t i = place + 1; i <= last; ++i) {
     try {
-      choices.push_back({*base_.candidates(contents, places_[i]), places_[i].pause_before});
+      choices.push_back({*cache_.candidates(contents, places_[i]), places_[i].pause_before});
     } catch (const Error&) {  // reported when the place is due
       break;
     }
   }
-  const Seconds transition = base_.durations(contents, options_.synthesis.duration)->mean;
+  const Seconds transition = cache_.durations(contents, options_.synthesis.duration)->mean;
   const Selection selection = select(snapshot, choices, {.transition = transition});
   const std::size_t at = after_another ? 1 : 0;
   decision =

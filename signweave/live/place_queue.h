@@ -17,7 +17,7 @@ namespace signweave {
 class PlaceQueue {
  public:
   /// All arguments must outlive it.
-  PlaceQueue(SharedSigningCache& base, OpenRecordings& open, const PlayerOptions& options);
+  PlaceQueue(SharedSigningCache& cache, OpenRecordings& open, const PlayerOptions& options);
 
   /// The choice for a place.
   struct Decision {
@@ -66,7 +66,7 @@ class PlaceQueue {
  private:
   bool decided_well(std::size_t place) const noexcept;
 
-  SharedSigningCache& base_;
+  SharedSigningCache& cache_;
   OpenRecordings& open_;
   const PlayerOptions& options_;
   bool loop_;

@@ -29,7 +29,7 @@ PlayerOptions checked(PlayerOptions options) {
 }  // namespace
 
 struct Player::State {
-  State(SharedSigningCache& base, const PlayerOptions& options) : growing(base, options) {}
+  State(SharedSigningCache& cache, const PlayerOptions& options) : score(cache, options) {}
 
   // Members used for each frame come first, for locality.
   FrameRing ring;
@@ -38,12 +38,12 @@ struct Player::State {
   double tempo = 1;         ///< frames of the timeline per taken frame
   std::uint64_t taken = 0;  ///< frames of the stream
   bool paused = false;
-  LiveScore growing;
+  LiveScore score;
 
   /// Allocates the ring, once the shape of frames is known.
   void open_ring() {
-    if (ring.capacity() > 1 || growing.header() == nullptr) return;
-    ring = FrameRing(growing.header()->shape(), kMostReady * 2 + static_cast<std::size_t>(growing.history()) + 2);
+    if (ring.capacity() > 1 || score.header() == nullptr) return;
+    ring = FrameRing(score.header()->shape(), kMostReady * 2 + static_cast<std::size_t>(score.history()) + 2);
   }
   /// Number of frames that can be taken from the ring.
   std::size_t ready() const noexcept {
@@ -55,11 +55,11 @@ struct Player::State {
   }
   /// The position of the stream: at the end even if the last frame was interpolated.
   std::int64_t position() const noexcept {
-    return growing.ended() && next + 1 >= growing.end() && ready() == 0 ? growing.end() : next;
+    return score.ended() && next + 1 >= score.end() && ready() == 0 ? score.end() : next;
   }
   /// Truncates the ring after the timeline was changed.
   void changed() {
-    ring.cut(std::min(ring.end(), growing.end()));
+    ring.cut(std::min(ring.end(), score.end()));
     if (ring.end() == next) part = 0;
   }
 };
@@ -67,25 +67,25 @@ struct Player::State {
 /// Releases the database and the taken frames, however a call ends.
 struct Player::LetGo {
   State& state;
-  ~LetGo() { state.growing.let_go(state.next); }
+  ~LetGo() { state.score.let_go(state.next); }
 };
 
-Player::Player(SharedSigningCache& base, PlayerOptions options) {
+Player::Player(SharedSigningCache& cache, PlayerOptions options) {
   const PlayerOptions sound = checked(std::move(options));
-  state_ = std::make_unique<State>(base, sound);
-  if (!sound.recording.empty()) state_->growing.rest_in(sound.recording);
+  state_ = std::make_unique<State>(cache, sound);
+  if (!sound.recording.empty()) state_->score.rest_in(sound.recording);
   state_->open_ring();
 }
 
 Player::~Player() = default;
 
 void Player::sign(const Utterance& utterance) {
-  state_->growing.replace(utterance, state_->next, state_->ring);
+  state_->score.replace(utterance, state_->next, state_->ring);
   state_->changed();
 }
 
 void Player::append(const Utterance& utterance) {
-  state_->growing.add(utterance, state_->next, state_->ring);
+  state_->score.add(utterance, state_->next, state_->ring);
   state_->changed();
 }
 
@@ -103,10 +103,10 @@ void Player::resume() noexcept {
 
 void Player::seek(Milliseconds at) {
   State& state = *state_;
-  if (state.growing.header() == nullptr) return;
-  const double frames = Seconds(at).count() * state.growing.header()->rate.hertz();
+  if (state.score.header() == nullptr) return;
+  const double frames = Seconds(at).count() * state.score.header()->rate.hertz();
   const LetGo let_go{state};
-  if (!state.growing.seek(std::llround(std::clamp(frames, 0.0, 1e12)), state.next)) return;
+  if (!state.score.seek(std::llround(std::clamp(frames, 0.0, 1e12)), state.next)) return;
   state.ring.cut(state.next);
   state.part = 0;
 }
@@ -124,12 +124,12 @@ void Player::set_tempo(double tempo) {
 }
 
 void Player::set_loop(bool loop) {
-  state_->growing.set_loop(loop, state_->next, state_->ring);
+  state_->score.set_loop(loop, state_->next, state_->ring);
   state_->changed();
 }
 
 const StreamHeader* Player::header() const noexcept {
-  return state_->growing.header();
+  return state_->score.header();
 }
 
 std::size_t Player::prepare(std::size_t frames) {
@@ -137,14 +137,14 @@ std::size_t Player::prepare(std::size_t frames) {
   frames = std::min(frames, kMostReady);
   const LetGo let_go{state};
   while (state.ready() < frames) {
-    if (state.growing.end() <= state.ring.end() && !state.growing.extend(state.ring)) break;
+    if (state.score.end() <= state.ring.end() && !state.score.extend(state.ring)) break;
     state.open_ring();
-    state.ring.forget(state.next - state.growing.history());
+    state.ring.forget(state.next - state.score.history());
     const auto wanted =
         static_cast<std::int64_t>(std::ceil(static_cast<double>(frames) * state.tempo + state.part)) + 1;
     const std::int64_t before = state.ring.end();
-    state.growing.read(std::min(state.growing.end(), state.next + wanted), state.ring);
-    if (state.ring.end() == before && state.growing.end() > before) break;
+    state.score.read(std::min(state.score.end(), state.next + wanted), state.ring);
+    if (state.ring.end() == before && state.score.end() > before) break;
   }
   return state.ready();
 }
@@ -187,13 +187,13 @@ std::optional<FrameView> Player::next_in(MutableFrameView room) noexcept {
 
 void Player::prefetch_state() const noexcept {
   const auto address = [](const void* of) { return static_cast<const std::byte*>(of); };
-  prefetch(state_.get(), static_cast<std::size_t>(address(&state_->growing) - address(state_.get())));
-  state_->growing.prefetch_state();
+  prefetch(state_.get(), static_cast<std::size_t>(address(&state_->score) - address(state_.get())));
+  state_->score.prefetch_state();
 }
 
 void Player::prefetch_frame() const noexcept {
   state_->ring.prefetch_frame(state_->next);
-  state_->growing.prefetch_event();
+  state_->score.prefetch_event();
 }
 
 std::uint64_t Player::frame() const noexcept {
@@ -201,17 +201,17 @@ std::uint64_t Player::frame() const noexcept {
 }
 
 std::optional<PlayerEvent> Player::take_event() noexcept {
-  std::optional<PlayerEvent> event = state_->growing.take_event(state_->position());
+  std::optional<PlayerEvent> event = state_->score.take_event(state_->position());
   if (event) event->frame = state_->taken;
   return event;
 }
 
 std::optional<ShownScore> Player::score(std::size_t most_clips) const {
-  return state_->growing.score(state_->position(), most_clips);
+  return state_->score.score(state_->position(), most_clips);
 }
 
 std::shared_ptr<const MotionSource> Player::rest() const noexcept {
-  return state_->growing.rest();
+  return state_->score.rest();
 }
 
 bool Player::paused() const noexcept {
@@ -219,7 +219,7 @@ bool Player::paused() const noexcept {
 }
 
 bool Player::idle() const noexcept {
-  return state_->growing.idle(state_->position());
+  return state_->score.idle(state_->position());
 }
 
 }  // namespace signweave

@@ -78,7 +78,7 @@ struct ShownScore {
 ///     for (;;) { player.prepare(32); while (player.next(frame)) send(frame); }
 class Player {
  public:
-  Player(SharedSigningCache& base, PlayerOptions options);
+  Player(SharedSigningCache& cache, PlayerOptions options);
   ~Player();
   Player(const Player&) = delete;
   Player& operator=(const Player&) = delete;

@@ -42,8 +42,8 @@ struct Taker {
 
 TEST(PlayerFramePath, TakingFramesAllocatesNothing) {
   const Corpus corpus;
-  SharedSigningCache base(*corpus.database);
-  Player player(base, {});
+  SharedSigningCache cache(*corpus.database);
+  Player player(cache, {});
   player.sign(parse_utterance("UN QUATRE CINQ"));
   player.prepare(1);
   Taker taker(player);
@@ -65,10 +65,10 @@ TEST(PlayerFramePath, TakingFramesAllocatesNothing) {
 TEST(PlayerFramePath, AWaitingPlayerHoldsNoDatabaseResources) {
   // As many players as the default engine allows readers, and twice as many.
   const Corpus corpus;
-  SharedSigningCache base(*corpus.database);
+  SharedSigningCache cache(*corpus.database);
   std::vector<std::unique_ptr<Player>> players;
   for (int i = 0; i < 300; ++i) {
-    players.push_back(std::make_unique<Player>(base, PlayerOptions{}));
+    players.push_back(std::make_unique<Player>(cache, PlayerOptions{}));
     players.back()->sign(parse_utterance("UN DEUX"));
     EXPECT_GT(players.back()->prepare(5), 0u);
   }
@@ -78,13 +78,13 @@ class ConcurrentPlayers : public testing::TestWithParam<std::string> {};
 
 TEST_P(ConcurrentPlayers, ConcurrentPlayersContinueWhileTheDatabaseChanges) {
   const Corpus corpus(GetParam());
-  SharedSigningCache base(*corpus.database);
+  SharedSigningCache cache(*corpus.database);
   std::atomic<bool> stop = false;
   std::atomic<int> signed_places = 0;
   std::vector<std::thread> threads;
   for (int i = 0; i < 3; ++i) {
     threads.emplace_back([&, i] {
-      Player player(base, {.loop = i == 2});
+      Player player(cache, {.loop = i == 2});
       player.sign(parse_utterance("UN DEUX TROIS"));
       player.prepare(1);
       Taker taker(player);
@@ -120,8 +120,8 @@ INSTANTIATE_TEST_SUITE_P(Engines, ConcurrentPlayers, testing::ValuesIn(kv::engin
 
 TEST(PlayerDuringChanges, ARemovedClipIsSkippedAndTheOthersAreSigned) {
   const Corpus corpus;
-  SharedSigningCache base(*corpus.database);
-  Player player(base, {.idle = Idle::end});
+  SharedSigningCache cache(*corpus.database);
+  Player player(cache, {.idle = Idle::end});
   player.sign(parse_utterance("UN CINQ QUATRE"));
   player.prepare(1);
   corpus.database->remove("c");
@@ -148,8 +148,8 @@ TEST(PlayerDuringChanges, ARemovedClipIsSkippedAndTheOthersAreSigned) {
 TEST(PlayerDuringChanges, ContinuesFromTheShownPoseIfTheRestOfASignIsGone) {
   for (const std::size_t shown : {5u, 40u, 120u}) {
     const Corpus corpus;
-    SharedSigningCache base(*corpus.database);
-    Player player(base, {});
+    SharedSigningCache cache(*corpus.database);
+    Player player(cache, {});
     player.sign(parse_utterance("\"c\"@0..2500 UN"));
     player.prepare(1);
     Taker taker(player);

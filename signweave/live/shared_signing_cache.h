@@ -90,7 +90,7 @@ class SharedSigningCache {
     std::vector<std::shared_ptr<const KnownRest>> rests;  ///< few: one for each signer and skeleton
     std::shared_ptr<const Declarations> declarations;
   };
-  /// The cached data of these contents; only that of the newest is kept. Requires the lock.
+  /// The cached data of these contents; only the data of the newest contents is kept. Requires the lock.
   Known& of(const std::shared_ptr<const Contents>& contents);
   template <typename Value, typename Find, typename Make>
   std::shared_ptr<const Value> look_up(const std::shared_ptr<const Contents>& contents, Find find, Make make);

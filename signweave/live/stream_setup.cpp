@@ -27,7 +27,7 @@ std::shared_ptr<LiveClip> place_rest(const StreamSetup& setup) {
   return rest;
 }
 
-std::unique_ptr<StreamSetup> set_up(SharedSigningCache& base, const Snapshot& snapshot,
+std::unique_ptr<StreamSetup> set_up(SharedSigningCache& cache, const Snapshot& snapshot,
                                     const std::shared_ptr<const Contents>& contents, const MotionClip& first,
                                     const PlayerOptions& options) {
   auto setup = std::make_unique<StreamSetup>();
@@ -36,10 +36,10 @@ std::unique_ptr<StreamSetup> set_up(SharedSigningCache& base, const Snapshot& sn
   };
   const SynthesisOptions& synthesis = options.synthesis;
   const TransitionMethod* const method = synthesis.method != nullptr ? synthesis.method : &transition_methods().front();
-  setup->rig = base.rig(snapshot, first.recording);
-  setup->fit = base.durations(contents, synthesis.duration);
+  setup->rig = cache.rig(snapshot, first.recording);
+  setup->fit = cache.durations(contents, synthesis.duration);
   if (method->fill->needs != Needs::nothing) {
-    setup->spans = base.spans(snapshot, first, *setup->rig, method->fill->needs);
+    setup->spans = cache.spans(snapshot, first, *setup->rig, method->fill->needs);
     if (method->fill->needs == Needs::spans) say(notice_without_captured(method->name, setup->spans->transitions));
   }
   const JunctionSettings settings{.skeleton = first.source->skeleton(),
@@ -48,10 +48,10 @@ std::unique_ptr<StreamSetup> set_up(SharedSigningCache& base, const Snapshot& sn
                                   .rig = setup->rig.get(),
                                   .model = setup->spans != nullptr ? setup->spans->model.get() : nullptr};
   setup->builder.emplace(settings, TransitionTiming{.fit = setup->fit.get(), .tempo = synthesis.tempo},
-                         base.tracks(*contents, first.recording), synthesis.alignment, first);
+                         cache.tracks(*contents, first.recording), synthesis.alignment, first);
   if (!synthesis.duration.fixed) say(notice_without_durations(*setup->fit));
   if (options.idle == Idle::living_rest) {
-    const std::shared_ptr<const KnownRest> known = base.rest(snapshot, first, *setup->rig);
+    const std::shared_ptr<const KnownRest> known = cache.rest(snapshot, first, *setup->rig);
     RestPose rest = known->rest;
     Motion alone(settings.skeleton, settings.rate);
     alone.append(rest.pose.view());
@@ -64,10 +64,10 @@ std::unique_ptr<StreamSetup> set_up(SharedSigningCache& base, const Snapshot& sn
     }
     setup->living =
         std::make_shared<const LivingRest>(settings.skeleton, settings.rate, setup->rig->signer.rig, std::move(rest),
-                                           setup->builder->tracks(), LivingRestOptions{.seed = base.new_seed()});
+                                           setup->builder->tracks(), LivingRestOptions{.seed = cache.new_seed()});
   }
   const Milliseconds fixed = synthesis.duration.fixed.value_or(Milliseconds(-1));
-  setup->key = fmt::format("{} {} {}/{} {} {} {} {} {}", base.state_number(contents), method->name,
+  setup->key = fmt::format("{} {} {}/{} {} {} {} {} {}", cache.state_number(contents), method->name,
                            settings.rate.numerator, settings.rate.denominator, synthesis.tempo, fixed.count(),
                            synthesis.duration.fitted, static_cast<int>(synthesis.alignment), key_of(first));
   setup->skeleton = source_of(first);
@@ -75,7 +75,7 @@ std::unique_ptr<StreamSetup> set_up(SharedSigningCache& base, const Snapshot& sn
                    .rate = settings.rate,
                    .tracks = setup->builder->tracks(),
                    .layout_from = first.recording,
-                   .declarations = *base.declarations(contents)};
+                   .declarations = *cache.declarations(contents)};
   return setup;
 }
 

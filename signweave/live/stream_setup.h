@@ -27,7 +27,7 @@ struct StreamSetup {
 };
 
 /// Throws what `map_body`, `captured_spans` and reading throw.
-std::unique_ptr<StreamSetup> set_up(SharedSigningCache& base, const Snapshot& snapshot,
+std::unique_ptr<StreamSetup> set_up(SharedSigningCache& cache, const Snapshot& snapshot,
                                     const std::shared_ptr<const Contents>& contents, const MotionClip& first,
                                     const PlayerOptions& options);
 

@@ -188,7 +188,7 @@ PackedRun Packer::pack_run(FrameRange frames) const {
       }
       numbers[c] = pack_number(std::span(values).first(count));
     }
-    // A translation is stored raw as a whole or not at all.
+    // The three components of a translation are stored raw together, or none of them.
     const bool raw = numbers[0].raw || numbers[1].raw || numbers[2].raw;
     for (PackedNumber& number : numbers) {
       if (raw) number = PackedNumber{};

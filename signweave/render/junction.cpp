@@ -114,8 +114,8 @@ void JunctionFiller::take_over(const PlacedClip& b, const TransitionCuts& cuts, 
   }
 }
 
-/// The context extends into the strokes, which are only read, but no farther: frames after a stroke may not be known
-/// yet.
+/// The context extends into the strokes, which are only read, but not beyond them: frames after a stroke may not be
+/// known yet.
 Gap JunctionFiller::gap_at(const PlacedClip& a, const PlacedClip& b, FrameRange frames, OutputWindow window) const {
   return {.skeleton = settings_.skeleton.get(),
           .groups = &settings_.rig->groups,

@@ -8,14 +8,14 @@
 /// Joint names of common rigs, as data. Case, blanks and the separators `_ - .` are ignored.
 namespace signweave {
 
-/// The names of a part, separated by blanks, best first. `@` stands for the side; a row for a left part covers both
+/// The names of a part, separated by blanks, best first. `@` is the side; a row for a left part covers both
 /// sides.
 struct NameRow {
   Part part;
   std::string_view names;
 };
 
-/// The names of finger joints: `@` stands for the side, `%` for the finger, `#` for the point.
+/// The names of finger joints: `@` is the side, `%` the finger, `#` the point.
 struct FingerNames {
   std::string_view pattern;
   std::string_view fingers;  ///< five words, thumb to little finger; `-` if there is none

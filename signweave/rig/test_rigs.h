@@ -9,7 +9,7 @@
 
 namespace signweave {
 
-/// For tests: the joint names of one rig. `@` stands for the side; an empty name leaves a joint out. More than fifteen
+/// For tests: the joint names of one rig. `@` is the side; an empty name leaves a joint out. More than fifteen
 /// members: one per joint.
 struct RigNaming {
   std::string left = "Left", right = "Right";

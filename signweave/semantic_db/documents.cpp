@@ -149,7 +149,7 @@ class Nodes {
     }
     if (pieces != directory_.pieces) in.fail("its annotations are not those of its tiers");
     if ((directory_.buckets & (directory_.buckets - 1)) != 0 || (directory_.buckets == 0) != (pieces == 0)) {
-      in.fail("an index that cannot be");
+      in.fail("an impossible index");
     }
     in.finish();
   }
@@ -190,7 +190,7 @@ class Nodes {
       const bool same = text_of(in.take(size)) == id;
       const auto piece = in.number<std::uint32_t>();
       if (!same) continue;
-      if (piece >= directory_.pieces) in.fail("an annotation that is not there");
+      if (piece >= directory_.pieces) in.fail("an annotation that does not exist");
       return piece;
     }
     return std::nullopt;

@@ -8,13 +8,13 @@
 #include "signweave/kv/sealed.h"
 #include "signweave/semantic_db/segment_bytes.h"
 
-// The bytes of a table are validated before use, so that no number in them leads outside.
+// The bytes of a table are validated before use, so that no index in them is out of range.
 
 namespace signweave {
 namespace {
 
-/// All numbers are below `bound`, or kNone with `or_none`. The loop does not exit early, so that the compiler can
-/// vectorise it.
+/// Checks that all numbers are below `bound`, or kNone with `or_none`. The loop does not exit early, so that the
+/// compiler can vectorise it.
 struct Below {
   std::uint32_t bound = 0;
   const char* what = "";
@@ -31,7 +31,7 @@ struct Below {
   }
 };
 
-/// The numbers rise from 0 to `last` and never fall. Blocks must come in order.
+/// Checks that the numbers go from 0 to `last` and never decrease. Blocks must be passed in order.
 struct Ascending {
   std::uint32_t last = 0;
   const char* what = "";
@@ -48,7 +48,7 @@ struct Ascending {
   }
 };
 
-/// Kinds have two bits; phases go up to 4, hands up to 2, and a phase must have its sign.
+/// Checks the flags of rows: kinds have two bits, phases are at most 4, hands at most 2, and a phase must have a sign.
 struct Flags {
   std::span<const RowId> parents;
 
@@ -83,8 +83,8 @@ struct Anything {
 
 }  // namespace
 
-/// Takes list after list, and checks that its contents can be used as they are. Memory is read once: the checksum of
-/// each block is computed and, while the block is in the cache, its numbers are checked.
+/// Takes one list after another and checks that it can be used in place. Memory is read once: the checksum of each
+/// block is computed and, while the block is in the cache, its numbers are checked.
 class TableBytes::Reader {
  public:
   Reader(ByteSpan bytes, const std::string& where, RunningChecksum* sum) : in_(bytes, where), sum_(sum) {}
@@ -167,8 +167,8 @@ SegmentTable TableBytes::open_adding(ByteSpan bytes, std::shared_ptr<const void>
   TableCounts counts{};
   std::memcpy(&counts, head.data() + 2, sizeof counts);
   const bool wide = head[1] == 1;
-  if (head[0] == 0 || head[1] > 1 || counts.rows == kNoRow) in.fail("a head that is none");
-  if (!std::has_single_bit(counts.slots) || counts.slots <= counts.texts) in.fail("no table of texts");
+  if (head[0] == 0 || head[1] > 1 || counts.rows == kNoRow) in.fail("an invalid head");
+  if (!std::has_single_bit(counts.slots) || counts.slots <= counts.texts) in.fail("an invalid table of texts");
 
   SegmentTable table;
   table.owner_ = std::move(owner);
@@ -185,35 +185,35 @@ SegmentTable TableBytes::open_adding(ByteSpan bytes, std::shared_ptr<const void>
           if (rows.recording >= counts.recordings || rows.tier >= counts.tiers || rows.signer >= counts.texts ||
               rows.begin > rows.own_end || rows.own_end > rows.extra_end || rows.extra_end > rows.unit_end ||
               rows.unit_end > counts.rows) {
-            return "a tier that is none";
+            return "an invalid tier";
           }
         }
         return nullptr;
       });
-  table.labels_of_texts_ = in.below(counts.texts, counts.texts, "labels that are none");
-  table.text_slots_ = in.below_or_none(counts.slots, counts.texts, "texts that are none");
+  table.labels_of_texts_ = in.below(counts.texts, counts.texts, "labels out of range");
+  table.text_slots_ = in.below_or_none(counts.slots, counts.texts, "texts out of range");
   const RowId labelled = counts.rows - std::min(counts.units, counts.rows);
   table.rows_of_labels_ = in.ascending(counts.texts, labelled, "labels out of order");
-  table.by_label_ = in.below(labelled, counts.rows, "rows that are none");
+  table.by_label_ = in.below(labelled, counts.rows, "rows out of range");
   for (std::size_t k = 0; k < kListedKinds; ++k) {
-    table.labels_of_kinds_[k] = in.below(counts.labels_of_kinds[k], counts.texts, "labels that are none");
+    table.labels_of_kinds_[k] = in.below(counts.labels_of_kinds[k], counts.texts, "labels out of range");
   }
   for (std::size_t k = 0; k < counts.phases.size(); ++k) {
-    table.by_phase_[k] = in.below(counts.phases[k], counts.rows, "phases that are none");
+    table.by_phase_[k] = in.below(counts.phases[k], counts.rows, "phases out of range");
   }
-  table.units_ = in.below(counts.units, counts.rows, "units that are none");
+  table.units_ = in.below(counts.units, counts.rows, "units out of range");
   if (wide) {
     table.wide_ = in.list<std::int64_t>(2 * std::size_t{counts.rows}, Anything{});
   } else {
     table.begins_ = in.list<std::int32_t>(counts.rows, Anything{});
     table.ends_ = in.list<std::int32_t>(counts.rows, Anything{});
   }
-  table.texts_of_rows_ = in.below(counts.rows, counts.texts, "texts that are none");
-  table.parents_ = in.below_or_none(counts.rows, counts.rows, "parents that are none");
-  table.places_of_rows_ = in.below(counts.rows, counts.places, "tiers that are none");
+  table.texts_of_rows_ = in.below(counts.rows, counts.texts, "texts out of range");
+  table.parents_ = in.below_or_none(counts.rows, counts.rows, "parents out of range");
+  table.places_of_rows_ = in.below(counts.rows, counts.places, "tiers out of range");
   table.flags_ = in.list<std::uint16_t>(counts.rows, Flags{table.parents_});
   table.child_begins_ = in.ascending(counts.rows, counts.children, "children out of order");
-  table.child_list_ = in.below(counts.children, counts.rows, "children that are none");
+  table.child_list_ = in.below(counts.children, counts.rows, "children out of range");
   in.finish();
   return table;
 }

@@ -51,7 +51,7 @@ std::string refusal(const Bytes& bytes) {
   } catch (const Error& error) {
     return error.what();
   }
-  return "taken as it is";
+  return "accepted";
 }
 
 /// The message if the number at an offset is replaced.
@@ -71,7 +71,7 @@ struct ListOf {
 TEST(SegmentBytes, AnOutOfRangeNumberIsRejectedInEveryList) {
   const SegmentTable table = large_table();
   const Bytes good(table.bytes().begin(), table.bytes().end());
-  ASSERT_EQ(refusal(good), "taken as it is");
+  ASSERT_EQ(refusal(good), "accepted");
   Places places(good);
   const TableCounts& n = places.counts;
   std::vector<ListOf> lists;
@@ -90,22 +90,22 @@ TEST(SegmentBytes, AnOutOfRangeNumberIsRejectedInEveryList) {
   ascending(n.recordings, "tiers out of order");
   ascending(n.recordings, "recordings out of order");
   const std::size_t tiers = places.next(n.places, sizeof(SegmentTable::TierRows));
-  below(n.texts, n.texts, "labels that are none");
-  below(n.slots, n.texts, "texts that are none");
+  below(n.texts, n.texts, "labels out of range");
+  below(n.slots, n.texts, "texts out of range");
   ascending(n.texts, "labels out of order");
-  below(n.rows - n.units, n.rows, "rows that are none");
-  for (const std::uint32_t labels : n.labels_of_kinds) below(labels, n.texts, "labels that are none");
-  for (const std::uint32_t phases : n.phases) below(phases, n.rows, "phases that are none");
-  below(n.units, n.rows, "units that are none");
+  below(n.rows - n.units, n.rows, "rows out of range");
+  for (const std::uint32_t labels : n.labels_of_kinds) below(labels, n.texts, "labels out of range");
+  for (const std::uint32_t phases : n.phases) below(phases, n.rows, "phases out of range");
+  below(n.units, n.rows, "units out of range");
   places.next(n.rows);
   places.next(n.rows);
-  below(n.rows, n.texts, "texts that are none");
+  below(n.rows, n.texts, "texts out of range");
   const std::size_t parents = places.at;
-  below(n.rows, n.rows, "parents that are none");
-  below(n.rows, n.places, "tiers that are none");
+  below(n.rows, n.rows, "parents out of range");
+  below(n.rows, n.places, "tiers out of range");
   const std::size_t flags = places.next(n.rows, sizeof(std::uint16_t));
   ascending(n.rows, "children out of order");
-  below(n.children, n.rows, "children that are none");
+  below(n.children, n.rows, "children out of range");
   ASSERT_EQ(places.at, good.size());
 
   std::size_t tried = 0;
@@ -125,7 +125,7 @@ TEST(SegmentBytes, AnOutOfRangeNumberIsRejectedInEveryList) {
   EXPECT_THAT(refusal_with(good, children + 16'384 * sizeof(std::uint32_t), std::uint32_t{1}),
               HasSubstr("children out of order"));
 
-  // A list that never falls but does not begin with 0.
+  // A list that never decreases but does not begin with 0.
   EXPECT_THAT(refusal_with(good, children, std::uint32_t{1}), HasSubstr("children out of order"));
 
   // Rows with an invalid kind, phase or hand; a phase without a sign.
@@ -136,8 +136,7 @@ TEST(SegmentBytes, AnOutOfRangeNumberIsRejectedInEveryList) {
           << row << ", " << bad;
     }
     for (const unsigned fine : {1U, 4U << 2, 2U << 5, 1U << 7, 1U << 8}) {
-      EXPECT_EQ(refusal_with(good, flags + row * sizeof(std::uint16_t), static_cast<std::uint16_t>(fine)),
-                "taken as it is");
+      EXPECT_EQ(refusal_with(good, flags + row * sizeof(std::uint16_t), static_cast<std::uint16_t>(fine)), "accepted");
     }
   }
   std::size_t phases = 0;
@@ -145,7 +144,7 @@ TEST(SegmentBytes, AnOutOfRangeNumberIsRejectedInEveryList) {
     const bool phase = table.kind(row) == RowKind::phase;
     phases += phase ? 1 : 0;
     EXPECT_THAT(refusal_with(good, parents + row * sizeof(std::uint32_t), kNoRow),
-                HasSubstr(phase ? "rows of a kind that does not exist" : "taken as it is"))
+                HasSubstr(phase ? "rows of a kind that does not exist" : "accepted"))
         << row;
   }
   EXPECT_GT(phases, 10U);
@@ -156,7 +155,7 @@ TEST(SegmentBytes, AnOutOfRangeNumberIsRejectedInEveryList) {
         SegmentTable::TierRows{0, 0, 2, 1, 3, 4}, SegmentTable::TierRows{0, 0, 1, 3, 2, 4},
         SegmentTable::TierRows{0, 0, 1, 2, 4, 3}, SegmentTable::TierRows{0, 0, 1, 2, 3, n.rows + 1},
         SegmentTable::TierRows{0, 0, 1, 2, 3, 4, n.texts}}) {
-    EXPECT_THAT(refusal_with(good, tiers, bad), HasSubstr("a tier that is none"));
+    EXPECT_THAT(refusal_with(good, tiers, bad), HasSubstr("an invalid tier"));
   }
 }
 
@@ -174,9 +173,9 @@ TEST(SegmentBytes, AnInvalidHeadIsRejected) {
   const SegmentTable table = large_table();
   const Bytes good(table.bytes().begin(), table.bytes().end());
   const std::size_t rows = (2 + 17) * sizeof(std::uint32_t);
-  EXPECT_THAT(refusal_with(good, 0, std::uint32_t{0}), HasSubstr("a head that is none"));
-  EXPECT_THAT(refusal_with(good, sizeof(std::uint32_t), std::uint32_t{2}), HasSubstr("a head that is none"));
-  EXPECT_THAT(refusal_with(good, rows, kNoRow), HasSubstr("a head that is none"));
+  EXPECT_THAT(refusal_with(good, 0, std::uint32_t{0}), HasSubstr("an invalid head"));
+  EXPECT_THAT(refusal_with(good, sizeof(std::uint32_t), std::uint32_t{2}), HasSubstr("an invalid head"));
+  EXPECT_THAT(refusal_with(good, rows, kNoRow), HasSubstr("an invalid head"));
   EXPECT_THAT(refusal_with(good, rows, kNoRow - 1), HasSubstr("damaged"));
 }
 
@@ -186,7 +185,7 @@ TEST(SegmentBytes, TheHashTableHasAFreeSlotAndNothingFollowsTheTable) {
   const std::size_t slots = (2 + 7) * sizeof(std::uint32_t);
   const std::uint32_t count = Places(good).counts.slots;
   for (const std::uint32_t bad : {0U, 1U, 16'384U, count - 1, count + 1}) {
-    EXPECT_THAT(refusal_with(good, slots, bad), HasSubstr("no table of texts")) << bad;
+    EXPECT_THAT(refusal_with(good, slots, bad), HasSubstr("an invalid table of texts")) << bad;
   }
   good.resize(good.size() + 8);
   EXPECT_THAT(refusal(good), HasSubstr("bytes are left over"));
@@ -223,7 +222,7 @@ TEST(SegmentBytes, ASealedTableWithAGoodChecksumIsStillChecked) {
     TableBytes::open_sealed(kv::sealed(bytes), {}, kWhere);
     FAIL();
   } catch (const Error& error) {
-    EXPECT_THAT(error.what(), HasSubstr("children that are none"));
+    EXPECT_THAT(error.what(), HasSubstr("children out of range"));
   }
   std::memcpy(bytes.data(), &bad, sizeof bad);
   try {

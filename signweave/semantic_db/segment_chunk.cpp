@@ -245,10 +245,10 @@ auto order_of(const SegmentRow& row) noexcept {
 void check(const SegmentChunk& chunk, const ByteReader& in) {
   for (std::size_t i = 0; i < chunk.rows.size(); ++i) {
     const SegmentRow& row = chunk.rows[i];
-    if (row.tier >= chunk.tiers.size()) in.fail("a row of no tier");
+    if (row.tier >= chunk.tiers.size()) in.fail("a row without tier");
     if (row.label >= chunk.labels.size() || row.text >= chunk.labels.size()) in.fail("a row without label");
-    if (!is_time(row.span.begin) || !is_time(row.span.end)) in.fail("a time that is none");
-    if (row.parent != kNoRow && (row.parent >= chunk.rows.size() || row.parent == i)) in.fail("a parent that is none");
+    if (!is_time(row.span.begin) || !is_time(row.span.end)) in.fail("an invalid time");
+    if (row.parent != kNoRow && (row.parent >= chunk.rows.size() || row.parent == i)) in.fail("an invalid parent");
     if (row.kind == RowKind::phase && (row.parent == kNoRow || chunk.rows[row.parent].kind != RowKind::sign)) {
       in.fail("a phase without sign");
     }

@@ -30,7 +30,7 @@ void add_table(kv::WriteTransaction& transaction, const SegmentTable& table, std
 void remove_from_tables(kv::WriteTransaction& transaction, std::string_view recording, const NextGeneration& next);
 
 /// Merges all tables into one if the ones after the first have more than a sixteenth of the rows; returns false if
-/// nothing is to be done. Throws as `add_table`.
+/// there is nothing to do. Throws as `add_table`.
 bool merge_tables(kv::WriteTransaction& transaction, const NextGeneration& next);
 
 /// Replaces all tables by one, whatever is stored.

@@ -32,7 +32,7 @@ inline constexpr std::size_t kLargestSpecification = std::size_t{1} << 24;
 /// of tracks, two elements with one index, an invalid time.
 File read(const std::filesystem::path& path);
 
-/// Reads from text; `name` stands for the file in errors, `specification` is the specification's text, or empty.
+/// Reads from text; `name` is the file name in errors, `specification` is the specification's text, or empty.
 File read_text(const std::string& name, std::string_view text, std::string_view specification = {});
 
 /// The path of the specification that a file is read with, or an empty path.

@@ -94,7 +94,7 @@ File read_pair(TextReader& asf, TextReader& amc, const ReadOptions& options) {
   if (!options.rate) {
     file.notices.push_back(
         {amc.name(),
-         fmt::format("the format does not tell the frame rate; {} frames a second taken", to_string(kAcclaimRate)),
+         fmt::format("the format does not give the frame rate; {} frames a second taken", to_string(kAcclaimRate)),
          {{"source_rate", ""}}});
   }
   const bvh::UpAxis up = options.up.value_or(bvh::UpAxis::y);

@@ -194,7 +194,7 @@ TEST(AsfRead, ZUpIsTurnedToYUp) {
 TEST(AsfRead, TheRateIs120UnlessGivenAndIsReported) {
   const File file = read(kGoodFiles / "two.amc", {.unit = 1.0});
   EXPECT_EQ(file.motion.rate(), (FrameRate{120, 1}));
-  EXPECT_TRUE(has_notice(file.notices, "two.amc: the format does not tell the frame rate; 120 frames a second taken"));
+  EXPECT_TRUE(has_notice(file.notices, "two.amc: the format does not give the frame rate; 120 frames a second taken"));
 }
 
 TEST(AsfRead, SpellingVariantsAreEquivalent) {

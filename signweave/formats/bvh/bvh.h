@@ -59,7 +59,7 @@ struct File {
 /// Reads a file through a window, so that the whole text and the motion are never in memory together.
 /// Throws Error{bad_input, "FILE:LINE: …"} if the file is not a complete BVH file.
 File read(const std::filesystem::path& path, const ReadOptions& options = {});
-/// Reads from text; `name` stands for the file in errors.
+/// Reads from text; `name` is the file name in errors.
 File read_text(std::string name, std::string_view text, const ReadOptions& options = {});
 
 /// The layout for a motion that did not come from a BVH file: centimetres, Y up, ZXY rotations, and positions on each

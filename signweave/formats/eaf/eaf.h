@@ -35,7 +35,7 @@ enum class Unsound {
 /// number of milliseconds from 0 to 10^12, or anything covered by Unsound::refused; Error{unsupported} for TIME_UNITS
 /// other than milliseconds.
 File read(const std::filesystem::path& path, Unsound unsound = Unsound::left_out);
-/// Reads from text; `name` stands for the file in errors.
+/// Reads from text; `name` is the file name in errors.
 File read_text(std::string name, std::string_view text, Unsound unsound = Unsound::left_out);
 
 /// Returns the document as an EAF file. If it is unchanged since it was read, the exact bytes of `document.source`; if

@@ -17,7 +17,7 @@ namespace signweave::eaf {
 /// "&lol;" stays these five characters, so an entity-expansion bomb is harmless.
 class Xml {
  public:
-  /// Parses `bytes`, which must outlive this object. `name` stands for the file in errors, `wanted` for what to give
+  /// Parses `bytes`, which must outlive this object. `name` is the file name in errors, `wanted` for what to give
   /// instead. Throws Error{bad_input, "NAME:LINE: …"} for text that is empty, binary, truncated or not XML.
   Xml(std::string name, std::string_view bytes, std::string_view wanted = "an EAF file as ELAN saves it");
   Xml(const Xml&) = delete;

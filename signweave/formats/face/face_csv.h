@@ -29,7 +29,7 @@ struct Face {
 /// number if a whole second is present, else 60. Rows whose count is 0 and that have no values (no face was seen) are
 /// skipped. Throws Error{bad_input, "FILE:LINE: …"} if it is not such a file, Error{not_found}, Error{io}.
 Face read(const std::filesystem::path& path);
-/// Reads from text; `name` stands for the file in errors.
+/// Reads from text; `name` is the file name in errors.
 Face read_text(const std::string& name, std::string_view text);
 
 /// A timecode "HH:MM:SS:FF.fff" since midnight, with `rate` frames per second; nullopt if it is not a timecode.

@@ -34,7 +34,7 @@ struct File {
 /// mirrored node above other bones, animation in several layers; Error{unsupported} for versions before 7.1;
 /// Error{not_found} for a missing take or file.
 File read(const std::filesystem::path& path, const ReadOptions& options = {});
-/// Reads from bytes; `name` stands for the file in errors.
+/// Reads from bytes; `name` is the file name in errors.
 File read_bytes(const std::string& name, std::string_view bytes, const ReadOptions& options = {});
 
 }  // namespace signweave::fbx

@@ -18,7 +18,7 @@ struct CharacterOptions {
 /// scalar tracks set the morph weights of the same name on every mesh that has them. Tracks that no mesh has, and
 /// joints that the file lacks, are omitted.
 ///
-/// `file` stands for the bytes in errors. Throws Error{bad_input} if they are not a GLB with one buffer, or if the
+/// `file` is the file name in errors. Throws Error{bad_input} if they are not a GLB with one buffer, or if the
 /// motion has no frames or numbers that are not finite; Error{unsupported} for a packed file (EXT_meshopt_compression),
 /// which most programs cannot open, and for more than 4 GiB.
 std::string on_character(const std::string& file, std::string_view character, const Motion& motion,

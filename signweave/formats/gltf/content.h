@@ -36,7 +36,7 @@ struct MorphMesh {
 
 /// A parsed file, checked as far as that is possible without its numbers. The bytes it was parsed from must outlive it.
 struct Content {
-  std::string name;                               ///< stands for the file in errors
+  std::string name;                               ///< the file name in errors
   tinygltf::Model model;                          ///< without buffers, meshes, materials and pictures
   std::vector<std::optional<PackedView>> packed;  ///< [view]
   std::vector<MorphMesh> meshes;                  ///< [mesh]

@@ -42,7 +42,7 @@ struct ReadFile {
 /// extensions that are unknown, for scales that no Motion can hold and for motions that are too large, Error{not_found}
 /// if there is no such take, and as `read_file` does.
 ReadFile read(const std::filesystem::path& path, const ReadOptions& options = {});
-/// Reads from bytes; `name` stands for the file in errors. External buffers lie in `folder` or below; if that is empty,
+/// Reads from bytes; `name` is the file name in errors. External buffers lie in `folder` or below; if that is empty,
 /// none may be read.
 ReadFile read_bytes(const std::string& name, std::string_view bytes, const std::filesystem::path& folder,
                     const ReadOptions& options = {});

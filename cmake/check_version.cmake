@@ -1,7 +1,7 @@
 cmake_minimum_required(VERSION 3.25)
 # cmake -DROOT=… -P check_version.cmake
-# Fails unless the version that project() states in CMakeLists.txt is stated only there. Changelogs, npm lock files and
-# test data may name versions of their own.
+# Fails unless the version that project() states in CMakeLists.txt is stated only there, and CHANGELOG.md has its section
+# with a date. Changelogs, npm lock files and test data may name versions of their own.
 get_filename_component(ROOT ${ROOT} ABSOLUTE)
 file(STRINGS ${ROOT}/CMakeLists.txt project REGEX "^project\\([a-z]+ VERSION [0-9.]+")
 if(NOT project MATCHES "VERSION ([0-9.]+)")
@@ -9,6 +9,10 @@ if(NOT project MATCHES "VERSION ([0-9.]+)")
 endif()
 set(version ${CMAKE_MATCH_1})
 string(REPLACE "." "\\." pattern ${version})
+file(STRINGS ${ROOT}/CHANGELOG.md released REGEX "^## \\[${pattern}\\] - 20[0-9][0-9]-[0-9][0-9]-[0-9][0-9]$")
+if(NOT released)
+  message(FATAL_ERROR "version: CHANGELOG.md has no section '## [${version}] - YYYY-MM-DD'")
+endif()
 set(pattern "(^|[^0-9.])${pattern}($|[^0-9.])")
 file(GLOB files RELATIVE ${ROOT} ${ROOT}/*.md ${ROOT}/CMakeLists.txt ${ROOT}/CMakePresets.json ${ROOT}/NOTICE ${ROOT}/cmake/*
      ${ROOT}/scripts/* ${ROOT}/.ci/* ${ROOT}/.github/workflows/* ${ROOT}/studio/package.json ${ROOT}/studio/index.html)

@@ -17,7 +17,7 @@ struct JobCall {
 
 template <class Visit>
 void fields(Visit& visit, JobCall& call) {
-  visit(calls::Field{.name = "job", .help = "the number returned by the call that began the job", .required = true},
+  visit(calls::Field{.name = "job", .help = "the id returned by the call that began the job", .required = true},
         call.job);
   visit(calls::Field{.name = "from",
                      .help = "index of the first entry to return of the result's list of recordings, counted from "

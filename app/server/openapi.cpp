@@ -28,11 +28,9 @@ bool has(const std::vector<std::string>& names, const std::string& name) {
 
 Json path_parameter(const std::string& name) {
   constexpr std::pair<std::string_view, const char*> kHelp[] = {
-      {"database", "name of a database that is served"},
-      {"recording", "name of a recording"},
-      {"upload", "the id returned when the upload was opened"},
-      {"file", "a plain file name, such as meteo.bvh"},
-      {"job", "the number returned by the call that began the job"},
+      {"database", "name of a database that is served"},         {"recording", "name of a recording"},
+      {"upload", "the id returned when the upload was opened"},  {"file", "a plain file name, such as meteo.bvh"},
+      {"job", "the id returned by the call that began the job"},
   };
   std::string help;
   for (const auto& [of, text] : kHelp) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "signweave/calls/field.h"
+#include "signweave/calls/search_limits.h"
 #include "signweave/core/answer.h"
 #include "signweave/database/database.h"
 #include "signweave/query/bare_words.h"
@@ -35,15 +36,7 @@ template <class Visit>
 void fields(Visit& visit, QueryCall& call) {
   visit(Field{.name = "text", .help = "words to find, or a query (docs/query.md)", .words = "TEXT", .required = true},
         call.text);
-  visit(Field{.name = "limit",
-              .help = "at most so many answers",
-              .range = Range{std::int64_t{1}, std::int64_t{1'000'000'000}}},
-        call.limit);
-  visit(Field{.name = "timeout_ms",
-              .help = "give up after so many ms",
-              .words = "timeout",
-              .range = Range{std::int64_t{1}, std::int64_t{1'000'000'000}}},
-        call.timeout_ms);
+  limit_fields(visit, call);
   visit(Field{.name = "explain", .help = "show how the query is answered: the plan, and how many rows it was about"},
         call.explain);
 }

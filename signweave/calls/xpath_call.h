@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "signweave/calls/field.h"
+#include "signweave/calls/search_limits.h"
 #include "signweave/core/answer.h"
 #include "signweave/database/database.h"
 
@@ -31,15 +32,7 @@ void fields(Visit& visit, XPathCall& call) {
               .help = "look at this recording only; may be given several times",
               .words = "recording"},
         call.recordings);
-  visit(Field{.name = "limit",
-              .help = "at most so many answers",
-              .range = Range{std::int64_t{1}, std::int64_t{1'000'000'000}}},
-        call.limit);
-  visit(Field{.name = "timeout_ms",
-              .help = "give up after so many ms",
-              .words = "timeout",
-              .range = Range{std::int64_t{1}, std::int64_t{1'000'000'000}}},
-        call.timeout_ms);
+  limit_fields(visit, call);
 }
 
 /// Throws SyntaxError for a wrong expression, Error{not_found} for an unknown recording or one without annotation,

@@ -85,7 +85,7 @@ std::vector<Candidate> gloss_candidates(const Contents& contents, const GlossRef
   return result;
 }
 
-Candidate piece_candidate(const Contents& contents, const Place& place) {
+Candidate piece_candidate(const Contents& contents, const SignRef& place) {
   const RecordingInfo& info = contents.at(place.recording);
   if (!info.motion) throw Error(ErrorCode::not_found, fmt::format("recording '{}' has no motion", info.name));
   Candidate piece;
@@ -121,10 +121,10 @@ std::vector<RowId> tokens_of(const Contents& contents, std::string_view gloss) {
   return tokens;
 }
 
-std::vector<Candidate> candidates_for(const Contents& contents, const Place& place) {
-  if (place.kind == Place::Kind::gloss) return gloss_candidates(contents, place.gloss);
+std::vector<Candidate> candidates_for(const Contents& contents, const SignRef& sign) {
+  if (sign.kind == SignRef::Kind::gloss) return gloss_candidates(contents, sign.gloss);
   std::vector<Candidate> one;
-  one.push_back(piece_candidate(contents, place));
+  one.push_back(piece_candidate(contents, sign));
   return one;
 }
 

@@ -29,9 +29,10 @@ struct Candidate {
 /// Every token of a gloss in the order of `#N`: by recording name, then time.
 std::vector<RowId> tokens_of(const Contents& contents, std::string_view gloss);
 
-/// The candidates for a place. Tokens without stroke or motion, or outside their motion, are skipped; requesting one by
-/// number is an error that gives the reason. Throws Error{not_found} with near matches for an unknown gloss.
-std::vector<Candidate> candidates_for(const Contents& contents, const Place& place);
+/// The candidates for a sign or a piece. Tokens without stroke or motion, or outside their motion, are skipped;
+/// requesting one by number is an error that gives the reason. Throws Error{not_found} with near matches for an unknown
+/// gloss.
+std::vector<Candidate> candidates_for(const Contents& contents, const SignRef& sign);
 
 /// A run of consecutive signs of one recording, in time order, as one candidate, from its first sign with a stroke to
 /// its last. Returns none if no sign has a stroke inside the motion.

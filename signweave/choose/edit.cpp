@@ -126,7 +126,7 @@ std::vector<Choice> choices_for(const Contents& contents, std::string_view recor
     const EditItem& item = items[i];
     Choice choice;
     if (item.replacement != nullptr) {
-      choice.candidates = candidates_for(contents, Place{.gloss = *item.replacement, .recording = {}, .span = {}});
+      choice.candidates = candidates_for(contents, SignRef{.gloss = *item.replacement, .recording = {}, .span = {}});
     } else {
       std::vector<Sign> run(signs.begin() + static_cast<std::ptrdiff_t>(item.first),
                             signs.begin() + static_cast<std::ptrdiff_t>(item.last) + 1);

@@ -107,7 +107,7 @@ void SharedSigningCache::check(const std::shared_ptr<const Contents>& contents, 
       if (!plain || !known.candidates.contains(place.gloss.gloss)) unknown.push_back(&place);
     }
   }
-  if (!unknown.empty()) require_glosses({places}, contents->segments);
+  if (!unknown.empty()) require_glosses({.places = places, .holds = {}, .non_manuals = {}}, contents->segments);
   std::size_t looked_at = 0;
   for (const Place* place : unknown) {
     const bool plain = place->kind == Place::Kind::gloss && place->gloss.token == 0;

@@ -142,6 +142,30 @@ std::string quoted_if_needed(const std::string& name) {
 
 }  // namespace
 
+std::string_view name_of(BodyPart part) noexcept {
+  switch (part) {
+    case BodyPart::dominant:
+      return "dominant";
+    case BodyPart::weak:
+      return "weak";
+    case BodyPart::right:
+      return "right";
+    case BodyPart::left:
+      return "left";
+    case BodyPart::dominant_fingers:
+      return "dominant fingers";
+    case BodyPart::weak_fingers:
+      return "weak fingers";
+    case BodyPart::right_fingers:
+      return "right fingers";
+    case BodyPart::left_fingers:
+      return "left fingers";
+    case BodyPart::head:
+      return "head";
+  }
+  return "";
+}
+
 std::string_view name_of(UtteranceFault::Kind kind) noexcept {
   switch (kind) {
     case UtteranceFault::Kind::open_quote:

@@ -1,11 +1,15 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
+#include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "signweave/core/time.h"
+#include "signweave/rig/part.h"
 
 namespace signweave {
 
@@ -16,14 +20,62 @@ struct GlossRef {
   friend bool operator==(const GlossRef&, const GlossRef&) = default;
 };
 
-/// One item to be signed.
-struct Place {
+/// A sign of the database, or a piece of a recording.
+struct SignRef {
   enum class Kind { gloss, piece };
   Kind kind = Kind::gloss;
-  GlossRef gloss;                ///< for a gloss
-  std::string recording;         ///< for a piece: the recording
-  TimeSpan span;                 ///< for a piece: annotation time
+  GlossRef gloss;         ///< for a gloss
+  std::string recording;  ///< for a piece: the recording
+  TimeSpan span;          ///< for a piece: annotation time
+  friend bool operator==(const SignRef&, const SignRef&) = default;
+};
+
+/// A part of the signer as a text names it. A hand is named by its side or by its role; a hand includes its arm.
+enum class BodyPart : std::uint8_t {
+  dominant,
+  weak,
+  right,
+  left,
+  dominant_fingers,
+  weak_fingers,
+  right_fingers,
+  left_fingers,
+  head,
+};
+inline constexpr std::array kBodyParts = {
+    BodyPart::dominant,     BodyPart::weak,          BodyPart::right,        BodyPart::left, BodyPart::dominant_fingers,
+    BodyPart::weak_fingers, BodyPart::right_fingers, BodyPart::left_fingers, BodyPart::head};
+/// Returns "weak", "right fingers", …
+std::string_view name_of(BodyPart part) noexcept;
+
+/// Ties the stroke of a part's sign to the stroke of the place that it accompanies.
+struct SyncMark {
+  enum class Anchor : std::uint8_t { begin, end };
+  Anchor anchor = Anchor::begin;
+  Milliseconds offset{0};  ///< from the place's anchor to the same anchor of the part's sign
+  friend bool operator==(const SyncMark&, const SyncMark&) = default;
+};
+
+/// A sign of one part of the signer.
+struct PartSign {
+  SignRef sign;
+  std::vector<SyncMark> sync;  ///< empty: the first of its part begins with the place, another follows the previous one
+  friend bool operator==(const PartSign&, const PartSign&) = default;
+};
+
+/// What one part of the signer does while some places are signed, instead of its share of them.
+struct PlacePart {
+  BodyPart part = BodyPart::weak;
+  std::vector<PartSign> signs;  ///< not empty
+  std::size_t places = 1;       ///< the number of consecutive places that it accompanies
+  friend bool operator==(const PlacePart&, const PlacePart&) = default;
+};
+
+/// One item to be signed.
+struct Place : SignRef {
   Milliseconds pause_before{0};  ///< extra time before it
+  std::vector<PlacePart> parts;  ///< those that begin with it, each part once
+  std::optional<Side> dominant;  ///< the hand that signs it as the dominant one; none: the signer's
   friend bool operator==(const Place&, const Place&) = default;
 };
 
@@ -31,9 +83,35 @@ struct Place {
 inline constexpr Milliseconds kComma{350};
 inline constexpr Milliseconds kFullStop{800};
 
-/// The requested glosses, in order (the paper's sign string).
+/// A hand that keeps its pose at the end of a place's stroke.
+struct HandHold {
+  BodyPart hand = BodyPart::weak;  ///< dominant, weak, right or left
+  std::size_t from = 0;            ///< the place, from 0
+  std::size_t until = 0;           ///< the place whose stroke's end ends the hold; after `from`
+  friend bool operator==(const HandHold&, const HandHold&) = default;
+};
+
+/// A movement of the face, the gaze or the head over consecutive places.
+struct NonManual {
+  enum class Kind : std::uint8_t {
+    expression,  ///< `what` is the name of an expression, such as "brows up"
+    mouthing,    ///< `what` is the text to be mouthed
+    gaze,        ///< `what` is a direction without its "@", such as "left" or "addressee"
+  };
+  Kind kind = Kind::expression;
+  std::string what;
+  std::size_t first = 0;  ///< place, from 0
+  std::size_t last = 0;   ///< inclusive
+  Milliseconds begin{0};  ///< added to its usual begin
+  Milliseconds end{0};    ///< added to its usual end
+  friend bool operator==(const NonManual&, const NonManual&) = default;
+};
+
+/// The requested glosses, in order (the paper's sign string), and what parts of the signer do besides.
 struct Utterance {
   std::vector<Place> places;
+  std::vector<HandHold> holds;
+  std::vector<NonManual> non_manuals;  ///< in the order of their begins; an outer one before those inside it
   friend bool operator==(const Utterance&, const Utterance&) = default;
 };
 

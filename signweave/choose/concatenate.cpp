@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "signweave/choose/joint_setup.h"
 #include "signweave/choose/junction_timer.h"
 #include "signweave/choose/on_skeleton.h"
 #include "signweave/core/error.h"
@@ -95,17 +96,22 @@ SignerRig signer_rig_of(const MotionClip& clip) {
   return {std::move(signer), std::move(groups)};
 }
 
-Synthesis concatenate(const std::vector<MotionClip>& clips, const ConcatenateOptions& options, Synthesis used) {
+JointSetup::JointSetup(const std::vector<MotionClip>& clips, const ConcatenateOptions& options) {
   if (clips.empty()) throw Error(ErrorCode::bad_input, "nothing to join");
   const MotionClip& reference = clips.at(options.reference);
   for (const MotionClip& clip : clips) require_same_joints(reference.recording, reference.source->skeleton(), clip);
-  const TransitionMethod& method = options.method != nullptr ? *options.method : transition_methods().front();
-  const FrameRate rate = options.rate.numerator > 0 ? options.rate : highest_rate(clips);
-  std::optional<SignerRig> measured;
   if (options.rig == nullptr) measured = signer_rig_of(reference);
-  const SignerRig& rig = measured ? *measured : *options.rig;
-  const JunctionSettings settings{
-      .skeleton = reference.source->skeleton(), .rate = rate, .method = &method, .rig = &rig, .model = options.model};
+  settings = {.skeleton = reference.source->skeleton(),
+              .rate = options.rate.numerator > 0 ? options.rate : highest_rate(clips),
+              .method = options.method != nullptr ? options.method : &transition_methods().front(),
+              .rig = measured ? &*measured : options.rig,
+              .model = options.model};
+}
+
+Synthesis concatenate(const std::vector<MotionClip>& clips, const ConcatenateOptions& options, Synthesis used) {
+  const JointSetup setup(clips, options);
+  const JunctionSettings& settings = setup.settings;
+  const MotionClip& reference = clips[options.reference];
   Plan plan = plan_for(clips, settings, options);
 
   Synthesis out;

@@ -49,12 +49,12 @@ JunctionTimer::JunctionTimer(const JunctionSettings& settings, const TransitionT
 }
 
 JunctionCuts JunctionTimer::cuts_between(const PlacedClip& a, const PlacedClip& b, Milliseconds pause,
-                                         JunctionScratch& scratch) {
+                                         JunctionScratch& scratch, std::optional<std::int64_t> length) {
   const JunctionChoice& own = b.captured->junction;
   const auto cut = method_of(settings_, b).cut;
   const bool choose = cut == nullptr;
   if (choose && !chooser_) chooser_.emplace(*settings_.skeleton, settings_.rig->groups);
-  const bool fitted = !own.duration && timing_.fit != nullptr && !timing_.fit->weights.empty();
+  const bool fitted = !length && !own.duration && timing_.fit != nullptr && !timing_.fit->weights.empty();
   Seconds duration = own.duration             ? Seconds(*own.duration)
                      : timing_.fit != nullptr ? timing_.fit->mean
                                               : Seconds(timing_.duration);
@@ -81,7 +81,7 @@ JunctionCuts JunctionTimer::cuts_between(const PlacedClip& a, const PlacedClip& 
   }
   const double seconds = (duration / own.tempo.value_or(1.0) + Seconds(pause)).count() / timing_.tempo;
   const double hertz = settings_.rate.hertz();
-  const TransitionRoom room{.length = std::max<std::int64_t>(1, std::llround(seconds * hertz)),
+  const TransitionRoom room{.length = std::max<std::int64_t>(1, length.value_or(std::llround(seconds * hertz))),
                             .retraction = a.retraction,
                             .preparation = b.preparation,
                             .frames_per_second = hertz,

@@ -20,8 +20,10 @@ class JunctionTimer {
  public:
   JunctionTimer(const JunctionSettings& settings, const TransitionTiming& timing);
 
-  /// The cuts between two placed clips, independent of their positions. Throws Error{corrupt}.
-  JunctionCuts cuts_between(const PlacedClip& a, const PlacedClip& b, Milliseconds pause, JunctionScratch& scratch);
+  /// The cuts between two placed clips, independent of their positions. `length` is given if other lanes determine it,
+  /// in output frames. Throws Error{corrupt}.
+  JunctionCuts cuts_between(const PlacedClip& a, const PlacedClip& b, Milliseconds pause, JunctionScratch& scratch,
+                            std::optional<std::int64_t> length = {});
 
  private:
   JunctionSettings settings_;

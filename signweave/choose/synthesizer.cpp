@@ -5,12 +5,15 @@
 #include <algorithm>
 #include <chrono>
 #include <map>
+#include <set>
 
 #include "signweave/choose/captured_spans.h"
+#include "signweave/choose/compose.h"
 #include "signweave/choose/missing_glosses.h"
 #include "signweave/choose/notices.h"
 #include "signweave/choose/on_skeleton.h"
 #include "signweave/choose/open_score.h"
+#include "signweave/choose/part_choice.h"
 #include "signweave/core/error.h"
 
 namespace signweave {
@@ -25,21 +28,29 @@ struct ChosenClip {
   std::vector<std::size_t> sign_places = std::vector<std::size_t>(candidate.signs.size(), place);  ///< [sign]
 };
 
-/// If the junction between neighbours is named, its transition is generated, because options were given for it.
+/// What is signed: places, and what parts of the signer sign besides.
+struct Wanted {
+  std::vector<Choice> choices;  ///< of the places
+  std::vector<PartChoice> parts;
+  const Utterance* utterance = nullptr;  ///< null: an edit, without parts
+};
+
+/// If the junction between neighbours is named, its transition is generated, because options were given for it. At
+/// `borders`, places at which parts begin or end, it is generated as well.
 std::vector<ChosenClip> merge_neighbours(const Contents& contents, const std::vector<Choice>& choices,
                                          const Selection& selection, const JunctionChoices& named,
-                                         std::vector<Notice>& notices) {
+                                         const std::set<std::size_t>& borders, std::vector<Notice>& notices) {
   std::vector<ChosenClip> merged;
   for (std::size_t place = 0; place < choices.size(); ++place) {
     const Candidate& next = choices[place].candidates[selection.chosen[place]];
     const bool goes_on = !merged.empty() && choices[place].pause_before == Milliseconds(0) &&
                          are_neighbours(contents, merged.back().candidate, next);
-    if (goes_on && !named.contains(place)) {
+    if (goes_on && !named.contains(place) && !borders.contains(place)) {
       extend_with(merged.back().candidate, next);
       merged.back().sign_places.insert(merged.back().sign_places.end(), next.signs.size(), place);
       continue;
     }
-    if (goes_on) {
+    if (goes_on && named.contains(place)) {
       notices.push_back({contents.recordings[next.recording].name,
                          fmt::format("'{}' and '{}' are neighbours in the recording; the transition between them is "
                                      "generated because junction {} is named",
@@ -59,21 +70,56 @@ void check_numbers(const JunctionChoices& named, std::size_t places) {
                                                                  : fmt::format("are {}, counted from 1", junctions)));
 }
 
+/// The number of the clip that contains each place.
+std::vector<std::size_t> clips_of_places(const std::vector<ChosenClip>& clips, std::size_t places) {
+  std::vector<std::size_t> clip_of(places);
+  for (std::size_t clip = 0; clip < clips.size(); ++clip) {
+    const std::size_t end = clip + 1 < clips.size() ? clips[clip + 1].place : places;
+    for (std::size_t place = clips[clip].place; place < end; ++place) clip_of[place] = clip;
+  }
+  return clip_of;
+}
+
+/// The parts' clips, without their motion, and the candidates that fill them.
+struct ComposedParts {
+  ChannelParts parts;
+  std::vector<ChosenPart> chosen;  ///< [clip of the parts]
+};
+ComposedParts composed_parts(const Snapshot& snapshot, const Wanted& wanted, const Synthesized& made,
+                             const std::vector<ChosenClip>& clips) {
+  ComposedParts composed;
+  if (wanted.utterance == nullptr) return composed;
+  std::vector<const Candidate*> chosen;
+  for (std::size_t place = 0; place < made.choices.size(); ++place) {
+    chosen.push_back(&made.choices[place].candidates[made.selection.chosen[place]]);
+  }
+  composed.chosen = choose_parts(snapshot, wanted.parts, chosen, made.choices, {.transition = made.durations.mean});
+  const std::vector<std::size_t> clip_of = clips_of_places(clips, made.choices.size());
+  for (const ChosenPart& part : composed.chosen) composed.parts.clips.push_back(channel_clip(part, clip_of));
+  composed.parts.holds = channel_holds(*wanted.utterance, clip_of);
+  return composed;
+}
+
 /// `edited` is the name of the edited recording; empty for an utterance.
-Synthesized run(const Snapshot& snapshot, std::vector<Choice> choices, std::string_view edited,
-                const SynthesisOptions& options, Clock::time_point start, Synthesis used) {
+Synthesized run(const Snapshot& snapshot, Wanted wanted, std::string_view edited, const SynthesisOptions& options,
+                Clock::time_point start, Synthesis used) {
   const Contents& contents = snapshot.contents();
   check(options);
-  check_numbers(options.junctions, choices.size());
+  check_numbers(options.junctions, wanted.choices.size());
   Synthesized made;
   made.contents = snapshot.shared_contents();
-  made.choices = std::move(choices);
+  made.choices = std::move(wanted.choices);
   const auto queried = Clock::now();
-  if (made.choices.size() > 1) made.durations = durations_of(contents, *snapshot.learned(), options.duration);
+  if (made.choices.size() > 1 || !wanted.parts.empty())
+    made.durations = durations_of(contents, *snapshot.learned(), options.duration);
   made.selection = select(snapshot, made.choices, {.transition = made.durations.mean, .explain = options.explain});
   std::vector<Notice> notices;
-  std::vector<ChosenClip> chosen_clips =
-      merge_neighbours(contents, made.choices, made.selection, options.junctions, notices);
+  std::vector<ChosenClip> chosen_clips = merge_neighbours(
+      contents, made.choices, made.selection, options.junctions,
+      wanted.utterance == nullptr ? std::set<std::size_t>() : clip_borders(*wanted.utterance), notices);
+  ComposedParts composed = composed_parts(snapshot, wanted, made, chosen_clips);
+  const std::size_t body = chosen_clips.size();
+  for (const ChosenPart& part : composed.chosen) chosen_clips.push_back({part.candidate, part.part->place});
   const auto selected = Clock::now();
 
   Seconds reading{0};
@@ -82,6 +128,7 @@ Synthesized run(const Snapshot& snapshot, std::vector<Choice> choices, std::stri
   for (ChosenClip& chosen : chosen_clips) {
     Candidate& candidate = chosen.candidate;
     const auto named = options.junctions.find(chosen.place);
+    const bool is_part = clips.size() >= body;
     const RecordingInfo& info = contents.recordings[candidate.recording];
     for (const Sign& sign : candidate.left_out) {
       notices.push_back(notice_left_out(info.name, sign));
@@ -94,8 +141,8 @@ Synthesized run(const Snapshot& snapshot, std::vector<Choice> choices, std::stri
                      .core = candidate.core,
                      .clock = info.clock,
                      .signs = std::move(candidate.signs),
-                     .pause_before = made.choices[chosen.place].pause_before,
-                     .junction = named == options.junctions.end() ? JunctionChoice{} : named->second,
+                     .pause_before = is_part ? Milliseconds(0) : made.choices[chosen.place].pause_before,
+                     .junction = is_part || named == options.junctions.end() ? JunctionChoice{} : named->second,
                      .fingerprint = info.motion_facts.fingerprint,
                      .place = chosen.place,
                      .sign_places = std::move(chosen.sign_places),
@@ -103,7 +150,7 @@ Synthesized run(const Snapshot& snapshot, std::vector<Choice> choices, std::stri
   }
 
   std::size_t reference = 0;
-  for (std::size_t i = clips.size(); i-- > 0;) {
+  for (std::size_t i = body; i-- > 0;) {
     if (clips[i].recording == edited) reference = i;
   }
   const std::shared_ptr<const MotionSource> home = clips[reference].source;
@@ -121,17 +168,19 @@ Synthesized run(const Snapshot& snapshot, std::vector<Choice> choices, std::stri
       }
     }
   }
-  made.result = concatenate(clips,
-                            {.method = &method,
-                             .fit = &made.durations,
-                             .model = captured.model.get(),
-                             .rig = &rig,
-                             .tempo = options.tempo,
-                             .rate = options.rate.value_or(FrameRate{0, 1}),
-                             .alignment = options.alignment,
-                             .most_frames = options.most_frames,
-                             .reference = reference},
-                            std::move(used));
+  for (std::size_t i = body; i < clips.size(); ++i) composed.parts.clips[i - body].clip = std::move(clips[i]);
+  clips.resize(body);
+  made.result = compose(clips, composed.parts,
+                        {.method = &method,
+                         .fit = &made.durations,
+                         .model = captured.model.get(),
+                         .rig = &rig,
+                         .tempo = options.tempo,
+                         .rate = options.rate.value_or(FrameRate{0, 1}),
+                         .alignment = options.alignment,
+                         .most_frames = options.most_frames,
+                         .reference = reference},
+                        std::move(used));
   made.result.notices = std::move(notices);
   made.layout_from = clips[reference].recording;
   const bool timed =
@@ -187,18 +236,19 @@ Synthesized synthesize(const Database& database, const Utterance& utterance, con
   const auto start = Clock::now();
   const Snapshot snapshot = database.snapshot();
   require_glosses(utterance, snapshot.contents().segments);
-  std::vector<Choice> choices;
+  Wanted wanted{.choices = {}, .parts = part_choices(snapshot.contents(), utterance), .utterance = &utterance};
   for (const Place& place : utterance.places) {
-    choices.push_back({candidates_for(snapshot.contents(), place), place.pause_before});
+    wanted.choices.push_back({candidates_for(snapshot.contents(), place), place.pause_before});
   }
-  return run(snapshot, std::move(choices), {}, options, start, std::move(used));
+  return run(snapshot, std::move(wanted), {}, options, start, std::move(used));
 }
 
 Synthesized synthesize(const Database& database, std::string_view recording, const Edit& edit,
                        const SynthesisOptions& options, Synthesis used) {
   const auto start = Clock::now();
   const Snapshot snapshot = database.snapshot();
-  return run(snapshot, choices_for(snapshot.contents(), recording, edit), recording, options, start, std::move(used));
+  Wanted wanted{.choices = choices_for(snapshot.contents(), recording, edit), .parts = {}, .utterance = nullptr};
+  return run(snapshot, std::move(wanted), recording, options, start, std::move(used));
 }
 
 }  // namespace signweave

@@ -14,6 +14,12 @@ PlaceQueue::PlaceQueue(SharedSigningCache& cache, OpenRecordings& open, const Pl
 
 void PlaceQueue::check(const Utterance& utterance, bool after_those_waiting) const {
   if (utterance.places.empty()) return;
+  const bool has_parts = std::ranges::any_of(utterance.places, [](const Place& place) { return !place.parts.empty(); });
+  if (has_parts || !utterance.holds.empty() || !utterance.non_manuals.empty()) {
+    throw Error(
+        ErrorCode::unsupported,
+        "a stream signs with the whole body; leave out what single hands, the head or the face do, or use sign");
+  }
   const std::size_t waiting = after_those_waiting ? places_.size() - next_ : 0;
   if (waiting + utterance.places.size() > kMostPlaces) {
     throw Error(ErrorCode::bad_input, fmt::format("{} signs would wait, more than {}; send the others later",

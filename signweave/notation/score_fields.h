@@ -117,17 +117,24 @@ template <class Visit>
 void fields(Visit& visit, const Item& item) {
   const auto* const use = std::get_if<ClipUse>(&item.what);
   const auto* const made = std::get_if<Transition>(&item.what);
+  const auto* const held = std::get_if<Hold>(&item.what);
   visit.type("ScoreItem");
   visit(AnswerField{.name = "at", .help = "output frames"}, pair_of(item.at));
-  visit(AnswerField{.name = "clip", .help = "or a transition", .minimum = 0},
+  visit(AnswerField{.name = "clip", .help = "or a transition, or a hold", .minimum = 0},
         given_if(use != nullptr, use == nullptr ? ClipId{0} : use->clip));
   visit(AnswerField{.name = "transition"}, given_if(made != nullptr, made == nullptr ? Transition() : *made));
+  visit(AnswerField{.name = "hold",
+                    .help = "the clip whose last pose is held; at the begin of a lane, whose first pose is",
+                    .minimum = 0},
+        given_if(held != nullptr, held == nullptr ? ClipId{0} : held->clip));
 }
 
 template <class Visit>
 void fields(Visit& visit, const Lane& lane) {
   visit.type("ScoreLane");
-  visit(AnswerField{.name = "channel", .one_of = {"body", "left", "right", "tracks"}}, name_of(lane.channel));
+  visit(AnswerField{.name = "channel",
+                    .one_of = {"body", "left", "right", "tracks", "left_fingers", "right_fingers", "head"}},
+        name_of(lane.channel));
   visit(AnswerField{.name = "items"}, lane.items);
 }
 
@@ -142,7 +149,7 @@ void fields(Visit& visit, const JunctionRef& junction) {
 template <class Visit>
 void fields(Visit& visit, const Score& score) {
   visit.type("Score");
-  visit(AnswerField{.name = "signweave_score", .help = "the version of the format", .minimum = 1}, kScoreVersion);
+  visit(AnswerField{.name = "signweave_score", .help = "the version of the format", .minimum = 1}, version_of(score));
   visit(AnswerField{.name = "skeleton"}, score.skeleton);
   visit(AnswerField{.name = "rate", .help = "numerator and denominator of the frames per second"},
         NumberPair{score.rate.numerator, score.rate.denominator});

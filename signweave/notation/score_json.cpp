@@ -188,6 +188,10 @@ Item item_from(const Value& value) {
     item.what = ClipUse{value["clip"].count<ClipId>()};
     return item;
   }
+  if (value.has("hold")) {
+    item.what = Hold{value["hold"].count<ClipId>()};
+    return item;
+  }
   const Value made = value["transition"];
   item.what = Transition{.from = made["from"].count<ClipId>(),
                          .to = made["to"].count<ClipId>(),
@@ -201,6 +205,14 @@ Item item_from(const Value& value) {
 }
 
 }  // namespace
+
+int version_of(const Score& score) noexcept {
+  const bool has_parts = score.lanes.size() > kChannels.size() || body_clips(score) != score.clips.size();
+  const bool has_holds = std::ranges::any_of(score.lanes, [](const Lane& lane) {
+    return std::ranges::any_of(lane.items, [](const Item& item) { return std::holds_alternative<Hold>(item.what); });
+  });
+  return has_parts || has_holds ? 2 : 1;
+}
 
 std::string text_of_fingerprint(std::uint64_t fingerprint) {
   return fmt::format("{:016x}", fingerprint);
@@ -257,7 +269,7 @@ Score score_from_json(std::string_view text, const std::string& file) {
   }
   const Value lanes = all["lanes"];
   for (std::size_t i = 0; i < lanes.size(); ++i) {
-    Lane lane{.channel = lanes.at(i)["channel"].one_of(kChannels), .items = {}};
+    Lane lane{.channel = lanes.at(i)["channel"].one_of(kAllChannels), .items = {}};
     const Value items = lanes.at(i)["items"];
     for (std::size_t k = 0; k < items.size(); ++k) lane.items.push_back(item_from(items.at(k)));
     score.lanes.push_back(std::move(lane));

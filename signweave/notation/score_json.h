@@ -8,8 +8,10 @@
 
 namespace signweave {
 
-/// The version of the JSON format that is written. Older versions can be read.
-inline constexpr int kScoreVersion = 1;
+/// The newest version of the JSON format. Older versions can be read, and a score is written in the oldest one that can
+/// hold it: version 2 added holds, clips of single channels, and the lanes of fingers and head.
+inline constexpr int kScoreVersion = 2;
+int version_of(const Score& score) noexcept;
 
 /// Maximum size of a score file in bytes; a sign takes about two thousand.
 inline constexpr std::size_t kLargestScore = std::size_t{256} << 20;

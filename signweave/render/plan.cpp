@@ -6,13 +6,11 @@
 #include <cmath>
 
 #include "signweave/core/error.h"
+#include "signweave/render/held_clip.h"
+#include "signweave/score/lane_chain.h"
 
 namespace signweave {
 namespace {
-
-const TransitionCut& cut_of(const Score& score, Channel channel, std::size_t junction) {
-  return std::get<Transition>(score.lanes[static_cast<std::size_t>(channel)].items[2 * junction + 1].what).cut;
-}
 
 Channel channel_of(Timed part) noexcept {
   switch (part) {
@@ -72,6 +70,149 @@ FrameRange core_of(const PlacedClip& placed) {
   return {core.begin, std::min(core.end, core.begin + std::max<std::int64_t>(shown, 1))};
 }
 
+/// Turns a score into a plan.
+class Planner {
+ public:
+  Planner(const Score& score, const std::vector<MotionClip>& clips) : score_(score), clips_(clips) {
+    for (const Lane& lane : score.lanes) chains_.push_back(chain_of(lane));
+  }
+
+  Plan plan() const {
+    Plan plan = of_body();
+    for (std::size_t lane = 0; lane < chains_.size(); ++lane) {
+      const Channel channel = score_.lanes[lane].channel;
+      check_positions(lane);
+      if (channel == Channel::body) continue;
+      const bool is_part = parent_of(channel).has_value();
+      const LaneChain& parent = is_part ? chain(*parent_of(channel)) : chains_.front();
+      for (const LaneDifference& difference : differences(chains_[lane], parent, is_part)) {
+        if (channel == Channel::tracks) {
+          throw Error(ErrorCode::bad_input, "lane 'tracks' has other clips than lane 'body'; it must have the same");
+        }
+        plan.runs.push_back(run_of(channel, chains_[lane], difference));
+      }
+    }
+    return plan;
+  }
+
+ private:
+  const LaneChain& chain(Channel channel) const {
+    return chains_[static_cast<std::size_t>(lane_of(score_, channel) - score_.lanes.data())];
+  }
+
+  /// Adds a clip to a plan; `held` are the poses of it that are held.
+  void place(ClipId id, const HeldFrames& held, Plan& plan) const {
+    const Clip& clip = score_.clips[id];
+    PlacedClip& placed = plan.placed.emplace_back(placed_by_step(clips_[id], clip.step));
+    placed.core = clip.at.begin;
+    placed.core_frames = clip.at.size();
+    placed.standing = clip.standing;
+    if (held.at_end > 0) placed.after = score_.frames - held.at_end - clip.at.end;
+    if (!held.any()) return;
+    HeldClip with_held = hold(placed, held);
+    placed = with_held.placed;
+    plan.held.push_back(std::move(with_held.clip));
+  }
+
+  /// What is held of a link of a chain. `within` says that the transition after it belongs to the plan.
+  static HeldFrames held_of(const LaneChain& chain, std::size_t link, bool within) {
+    const bool last = link + 1 == chain.size();
+    return {.before = chain[link].held_before,
+            .after_core = !last && within ? chain[link].held : 0,
+            .at_end = last ? chain[link].held : 0};
+  }
+
+  /// The cut of a body's junction in an arm or the tracks; the body's own if that lane leads elsewhere there.
+  std::vector<TransitionCut> cuts_in(Channel channel) const {
+    const LaneChain& body = chains_.front();
+    std::vector<TransitionCut> cuts;
+    for (std::size_t i = 0; i + 1 < body.size(); ++i) cuts.push_back(body[i].cut);
+    const LaneChain& lane = chain(channel);
+    for (std::size_t i = 0; i + 1 < lane.size(); ++i) {
+      const std::size_t clip = lane[i].clip;
+      if (clip + 1 < body.size() && lane[i + 1].clip == clip + 1 && lane[i].held == body[clip].held) {
+        cuts[clip] = lane[i].cut;
+      }
+    }
+    return cuts;
+  }
+
+  Plan of_body() const {
+    const LaneChain& body = chains_.front();
+    Plan plan;
+    plan.frames = score_.frames;
+    for (std::size_t i = 0; i < body.size(); ++i) place(body[i].clip, held_of(body, i, true), plan);
+    plan.cuts.resize(body.size() - 1);
+    for (const Timed part : kAllTimed) {
+      const std::vector<TransitionCut> cuts = cuts_in(channel_of(part));
+      for (std::size_t i = 0; i < cuts.size(); ++i) plan.cuts[i].parts[static_cast<std::size_t>(part)] = cuts[i];
+    }
+    const std::vector<TransitionCut> tracks = cuts_in(Channel::tracks);
+    for (std::size_t i = 0; i < tracks.size(); ++i) plan.cuts[i].tracks = tracks[i];
+    finish(plan, body, true, true);
+    return plan;
+  }
+
+  LaneRun run_of(Channel channel, const LaneChain& lane, const LaneDifference& difference) const {
+    LaneRun run{
+        .channel = channel,
+        .frames = {difference.from_parent ? score_.clips[lane[difference.first].clip].at.end : 0,
+                   difference.back_to_parent ? score_.clips[lane[difference.last].clip].at.begin : score_.frames},
+        .from_parent = difference.from_parent,
+        .back_to_parent = difference.back_to_parent,
+        .plan = {}};
+    run.plan.frames = score_.frames;
+    for (std::size_t i = difference.first; i <= difference.last; ++i) {
+      const bool within = i < difference.last || !difference.back_to_parent;
+      place(lane[i].clip, held_of(lane, i, within), run.plan);
+      if (i == difference.last) break;
+      JunctionCuts& cuts = run.plan.cuts.emplace_back(JunctionCuts{.parts = {}, .tracks = lane[i].cut});
+      cuts.parts.fill(lane[i].cut);
+    }
+    finish(run.plan, std::span(lane).subspan(difference.first, run.plan.placed.size()), !difference.from_parent,
+           !difference.back_to_parent);
+    return run;
+  }
+
+  /// Records what is shown of each preparation and retraction, and checks that it was captured.
+  void finish(Plan& plan, std::span<const LaneLink> links, bool from_begin, bool to_end) const {
+    if (from_begin) plan.placed.front().before = plan.placed.front().core;
+    for (std::size_t i = 0; i < plan.cuts.size(); ++i) {
+      for (const TransitionCut& cut : plan.cuts[i].parts) {
+        plan.placed[i].after = std::max(plan.placed[i].after, cut.retraction_frames);
+        plan.placed[i + 1].before = std::max(plan.placed[i + 1].before, cut.preparation_frames);
+      }
+    }
+    if (to_end) plan.placed.back().after = plan.frames - plan.placed.back().core_end();
+    for (std::size_t i = 0; i < plan.placed.size(); ++i) {
+      const PlacedClip& placed = plan.placed[i];
+      const auto require = [&](bool holds, std::string_view what, std::int64_t shown, std::int64_t captured) {
+        if (holds) return;
+        throw Error(ErrorCode::bad_input, fmt::format("the score shows {} frames {} clip {}, where {} were captured",
+                                                      shown, what, links[i].clip, captured));
+      };
+      const std::int64_t tracks_before = i > 0 ? plan.cuts[i - 1].tracks.preparation_frames : 0;
+      const std::int64_t tracks_after = i < plan.cuts.size() ? plan.cuts[i].tracks.retraction_frames : 0;
+      const std::int64_t before = std::max(placed.before, tracks_before);
+      const std::int64_t after = std::max(placed.after, tracks_after);
+      require(before <= placed.preparation, "before the core of", before, placed.preparation);
+      require(placed.after >= 0 && after <= placed.retraction, "after the core of", after, placed.retraction);
+    }
+  }
+
+  void check_positions(std::size_t lane) const {
+    const Channel channel = score_.lanes[lane].channel;
+    if (lane_of(channel, chains_[lane], score_.clips, score_.frames) == score_.lanes[lane]) return;
+    throw Error(
+        ErrorCode::bad_input,
+        fmt::format("lane '{}' does not lie where its cuts and the cores of its clips put it", name_of(channel)));
+  }
+
+  const Score& score_;
+  const std::vector<MotionClip>& clips_;
+  std::vector<LaneChain> chains_;  ///< [lane]
+};
+
 }  // namespace
 
 std::vector<MotionClip> clips_of(const Score& score, const FindSource& find) {
@@ -103,48 +244,7 @@ std::vector<MotionClip> clips_of(const Score& score, const FindSource& find) {
 }
 
 Plan plan_of(const Score& score, const std::vector<MotionClip>& clips) {
-  Plan plan;
-  plan.frames = score.frames;
-  for (std::size_t i = 0; i < clips.size(); ++i) {
-    const Clip& clip = score.clips[i];
-    plan.placed.push_back(placed_by_step(clips[i], clip.step));
-    plan.placed.back().core = clip.at.begin;
-    plan.placed.back().core_frames = clip.at.size();
-    plan.placed.back().standing = clip.standing;
-  }
-  plan.placed.front().before = plan.placed.front().core;
-  for (std::size_t i = 0; i + 1 < clips.size(); ++i) {
-    JunctionCuts& cuts = plan.cuts.emplace_back();
-    for (const Timed part : kAllTimed) cuts.parts[static_cast<std::size_t>(part)] = cut_of(score, channel_of(part), i);
-    cuts.tracks = cut_of(score, Channel::tracks, i);
-    for (const TransitionCut& cut : cuts.parts) {
-      plan.placed[i].after = std::max(plan.placed[i].after, cut.retraction_frames);
-      plan.placed[i + 1].before = std::max(plan.placed[i + 1].before, cut.preparation_frames);
-    }
-  }
-  plan.placed.back().after = score.frames - plan.placed.back().core_end();
-  for (std::size_t i = 0; i < plan.placed.size(); ++i) {
-    const PlacedClip& placed = plan.placed[i];
-    const auto require = [&](bool holds, std::string_view what, std::int64_t shown, std::int64_t captured) {
-      if (holds) return;
-      throw Error(ErrorCode::bad_input, fmt::format("the score shows {} frames {} clip {}, where {} were captured",
-                                                    shown, what, i, captured));
-    };
-    const std::int64_t tracks_before = i > 0 ? plan.cuts[i - 1].tracks.preparation_frames : 0;
-    const std::int64_t tracks_after = i < plan.cuts.size() ? plan.cuts[i].tracks.retraction_frames : 0;
-    const std::int64_t before = std::max(placed.before, tracks_before);
-    const std::int64_t after = std::max(placed.after, tracks_after);
-    require(before <= placed.preparation, "before the core of", before, placed.preparation);
-    require(placed.after >= 0 && after <= placed.retraction, "after the core of", after, placed.retraction);
-  }
-  const std::vector<Lane> lanes = lanes_of(plan);
-  for (std::size_t i = 0; i < lanes.size(); ++i) {
-    if (lanes[i] == score.lanes[i]) continue;
-    throw Error(ErrorCode::bad_input,
-                fmt::format("lane '{}' does not lie where its cuts and the cores of its clips put it",
-                            name_of(lanes[i].channel)));
-  }
-  return plan;
+  return Planner(score, clips).plan();
 }
 
 std::vector<MotionClip> clips_around(std::span<const FrameRange> gaps, const MotionClip& motion) {
@@ -173,23 +273,28 @@ Plan plan_with_gaps(const std::vector<MotionClip>& clips, std::span<const std::i
   return plan;
 }
 
+Clip clip_of(const PlacedClip& placed, ClipId id) {
+  const MotionClip& clip = *placed.captured;
+  return {.id = id,
+          .place = clip.place.value_or(id),
+          .source = source_of(clip),
+          .whole = clip.whole,
+          .core = core_of(placed),
+          .step = placed.step,
+          .at = {placed.core, placed.core_end()},
+          .standing = placed.standing,
+          .clock = clip.clock,
+          .signs = clip.signs,
+          .sign_places = places_of(clip, id)};
+}
+
 Score score_of(const Plan& plan, const JunctionSettings& settings, const SourceRef& skeleton) {
   Score score{
       .skeleton = skeleton, .rate = settings.rate, .frames = plan.frames, .clips = {}, .junctions = {}, .lanes = {}};
   for (std::size_t i = 0; i < plan.placed.size(); ++i) {
     const PlacedClip& placed = plan.placed[i];
     const MotionClip& clip = *placed.captured;
-    score.clips.push_back({.id = static_cast<ClipId>(i),
-                           .place = clip.place.value_or(i),
-                           .source = source_of(clip),
-                           .whole = clip.whole,
-                           .core = core_of(placed),
-                           .step = placed.step,
-                           .at = {placed.core, placed.core_end()},
-                           .standing = placed.standing,
-                           .clock = clip.clock,
-                           .signs = clip.signs,
-                           .sign_places = places_of(clip, i)});
+    score.clips.push_back(clip_of(placed, static_cast<ClipId>(i)));
     if (i > 0) {
       score.junctions.push_back({.number = clip.place.value_or(i),
                                  .method = std::string(method_of(settings, placed).name),

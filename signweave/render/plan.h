@@ -15,11 +15,24 @@
 
 namespace signweave {
 
+struct LaneRun;
+
 /// A score together with its motions: Algorithm 1 before any frame is made. Clips are borrowed.
 struct Plan {
-  std::vector<PlacedClip> placed;
+  std::vector<PlacedClip> placed;  ///< of the whole body
   std::vector<JunctionCuts> cuts;  ///< [clip − 1]
   std::int64_t frames = 0;
+  std::vector<LaneRun> runs;                            ///< by Channel, then in time order
+  std::vector<std::shared_ptr<const MotionClip>> held;  ///< owns the clips in `placed` of which poses are held
+};
+
+/// Output frames in which a channel does not show what its parent does, or for a channel without parent, the body.
+struct LaneRun {
+  Channel channel = Channel::left;
+  FrameRange frames;            ///< between the cores of its first and last clip, or to an end of the output
+  bool from_parent = false;     ///< the parent shows the first clip as well
+  bool back_to_parent = false;  ///< the parent shows the last clip as well
+  Plan plan;                    ///< its clips, as if they were of the whole body; without runs
 };
 
 /// The input for a recording of a score: its motion, in the joints of the score's skeleton, and the noise of its
@@ -44,7 +57,9 @@ std::vector<MotionClip> clips_around(std::span<const FrameRange> gaps, const Mot
 /// The plan that shows such clips unchanged, with `counts` generated frames between each two.
 Plan plan_with_gaps(const std::vector<MotionClip>& clips, std::span<const std::int64_t> counts);
 
-/// The score of a plan; plan_of gives the plan back. A clip without `place` gets its number as the place.
+/// A placed clip as stored in a score.
+Clip clip_of(const PlacedClip& placed, ClipId id);
+/// The score of a plan without runs; plan_of gives the plan back. A clip without `place` gets its number as the place.
 Score score_of(const Plan& plan, const JunctionSettings& settings, const SourceRef& skeleton);
 
 }  // namespace signweave

@@ -5,9 +5,12 @@
 #include <algorithm>
 #include <cassert>
 #include <optional>
+#include <tuple>
+#include <utility>
 
 #include "signweave/core/error.h"
 #include "signweave/render/carry_tracks.h"
+#include "signweave/render/lane_renderer.h"
 #include "signweave/render/window.h"
 #include "signweave/score/place_signs.h"
 
@@ -22,7 +25,7 @@ const std::string& name_at_begin(const MotionClip& clip) {
 }
 
 /// Fills in the source of each frame of a plan.
-void name_sources(const Plan& plan, std::vector<FrameSource>& sources) {
+void name_sources(const Score& score, const Plan& plan, std::vector<FrameSource>& sources) {
   sources.resize(static_cast<std::size_t>(plan.frames));
   const auto at = [&](std::int64_t frame) -> FrameSource& { return sources[static_cast<std::size_t>(frame)]; };
   for (std::size_t i = 0; i < plan.placed.size(); ++i) {
@@ -37,32 +40,58 @@ void name_sources(const Plan& plan, std::vector<FrameSource>& sources) {
         at(frame) = {FrameSource::kNone, clip - 1, 0};
       }
     }
+    const Clip& clip_of_score = score.clips[i];
     const auto kept = [&](std::int64_t begin, std::int64_t end, std::int32_t junction) {
       if (now.captured_as_is()) {
-        const std::int64_t shift = now.captured->core.begin - now.core;
+        const std::int64_t shift = clip_of_score.core.begin - now.core;
         for (std::int64_t frame = begin; frame < end; ++frame) {
           at(frame) = {clip, junction, static_cast<double>(frame + shift)};
         }
       } else {
-        for (std::int64_t frame = begin; frame < end; ++frame) at(frame) = {clip, junction, now.frame_at(frame)};
+        const auto recorded_shift = static_cast<double>(clip_of_score.core.begin - now.captured->core.begin);
+        for (std::int64_t frame = begin; frame < end; ++frame) {
+          at(frame) = {clip, junction, now.frame_at(frame) + recorded_shift};
+        }
       }
     };
     kept(now.core - kept_before, now.core, i > 0 ? clip - 1 : FrameSource::kNone);
     kept(now.core, now.core_end(), FrameSource::kNone);
     kept(now.core_end(), now.core_end() + kept_after, last ? FrameSource::kNone : clip);
   }
+  // Held poses are of the frame next to them, and frames composed of several clips of none.
+  for (const Item& item : score.lanes.front().items) {
+    const auto* const held = std::get_if<Hold>(&item.what);
+    if (held == nullptr) continue;
+    const FrameSource pose = item.at.begin == 0 ? at(item.at.end) : at(item.at.begin - 1);
+    for (std::int64_t frame = item.at.begin; frame < item.at.end; ++frame) at(frame).frame = pose.frame;
+  }
+  for (const LaneRun& run : plan.runs) {
+    for (std::int64_t frame = run.frames.begin; frame < run.frames.end; ++frame) at(frame) = {};
+  }
 }
 
-void place_clips(const Plan& plan, Synthesis& out) {
+/// The lane that shows a clip of a single channel, and its item there.
+std::pair<Channel, FrameRange> lane_with(const Score& score, ClipId clip) {
+  for (const Lane& lane : score.lanes) {
+    for (const Item& item : lane.items) {
+      const auto* const use = std::get_if<ClipUse>(&item.what);
+      if (use != nullptr && use->clip == clip) return {lane.channel, item.at};
+    }
+  }
+  return {Channel::body, {}};
+}
+
+void place_clips(const Score& score, const std::size_t body, Synthesis& out) {
   out.clips.clear();
-  for (std::size_t i = 0; i < plan.placed.size(); ++i) {
-    const PlacedClip& placed = plan.placed[i];
-    const FrameRange core{placed.core, placed.core_end()};
-    out.clips.push_back({.recording = placed.captured->recording,
-                         .output = {i == 0 ? 0 : core.begin, i + 1 == plan.placed.size() ? plan.frames : core.end},
-                         .core = core,
-                         .first_frame = placed.frame_at(core.begin),
-                         .step = placed.step});
+  for (std::size_t i = 0; i < score.clips.size(); ++i) {
+    const Clip& clip = score.clips[i];
+    ShownClip shown{.recording = clip.source.recording,
+                    .output = {i == 0 ? 0 : clip.at.begin, i + 1 == body ? score.frames : clip.at.end},
+                    .core = clip.at,
+                    .first_frame = static_cast<double>(clip.core.begin),
+                    .step = clip.step};
+    if (i >= body) std::tie(shown.channel, shown.output) = lane_with(score, clip.id);
+    out.clips.push_back(std::move(shown));
   }
 }
 
@@ -97,8 +126,14 @@ void copy(const Motion& made, std::int64_t from, FrameRange frames, Motion& out)
 
 }  // namespace
 
-Renderer::Renderer(Plan plan, const JunctionSettings& settings)
-    : plan_(std::move(plan)), settings_(settings), filler_(settings), tracks_(tracks_of(plan_.placed)) {}
+Renderer::Renderer(Plan plan, const JunctionSettings& settings, Tracks tracks)
+    : plan_(std::move(plan)), settings_(settings), filler_(settings) {
+  if (tracks == Tracks::shown) tracks_ = tracks_of(plan_.placed);
+  if (!plan_.runs.empty()) lanes_ = std::make_unique<LaneRenderer>(plan_.runs, settings_);
+}
+
+Renderer::~Renderer() = default;
+Renderer::Renderer(Renderer&&) noexcept = default;
 
 /// Includes the complete transitions that the frames touch, and the context on both sides of those.
 Renderer::Section Renderer::section_with(FrameRange frames) const {
@@ -149,6 +184,11 @@ const JointSigns& Renderer::turned_in(std::size_t clip) {
 }
 
 void Renderer::render(FrameRange frames, Motion& out) {
+  render_body(frames, out);
+  if (lanes_) lanes_->apply({out, frames.begin}, [&](FrameRange other, Motion& body) { render_body(other, body); });
+}
+
+void Renderer::render_body(FrameRange frames, Motion& out) {
   if (frames.begin < 0 || frames.end > plan_.frames || frames.begin > frames.end) {
     throw Error(ErrorCode::bad_input,
                 fmt::format("frames {} to {} are not in a score of {} frames", frames.begin, frames.end, plan_.frames));
@@ -172,6 +212,7 @@ void Renderer::render(FrameRange frames, Motion& out) {
 
 void Renderer::render_fetched(Motion& out, std::vector<ScalarTrack> used) {
   join_section({.first = 0, .last = plan_.placed.size() - 1, .frames = {0, plan_.frames}}, {out}, std::move(used));
+  if (lanes_) lanes_->apply({out}, [&](FrameRange other, Motion& body) { render_body(other, body); });
 }
 
 void Renderer::join_section(const Section& section, OutputWindow window, std::vector<ScalarTrack> used) {
@@ -211,12 +252,12 @@ void render(Score score, Renderer& renderer, const std::vector<MotionClip>& clip
   } else {
     renderer.render({0, plan.frames}, out.motion);
   }
-  name_sources(plan, out.sources);
-  place_clips(plan, out);
+  name_sources(score, plan, out.sources);
+  place_clips(score, plan.placed.size(), out);
   place_junctions(score, plan, out);
+  out.score = std::move(score);
   out.signs.clear();
   place_signs(clips, out);
-  out.score = std::move(score);
 }
 
 }  // namespace signweave

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -10,12 +11,17 @@
 
 namespace signweave {
 
+class LaneRenderer;
+
 /// Renders a plan: any frames, in any order, any number of times, always with the same bits (for clips retargeted to
 /// another skeleton, up to the signs of quaternions). Used by one thread.
 class Renderer {
  public:
+  enum class Tracks { shown, left_out };
   /// Everything that the settings and the plan's clips point to must outlive it.
-  Renderer(Plan plan, const JunctionSettings& settings);
+  Renderer(Plan plan, const JunctionSettings& settings, Tracks tracks = Tracks::shown);
+  ~Renderer();
+  Renderer(Renderer&&) noexcept;
 
   const Plan& plan() const noexcept { return plan_; }
 
@@ -35,14 +41,16 @@ class Renderer {
     FrameRange frames;
   };
   Section section_with(FrameRange frames) const;
+  void render_body(FrameRange frames, Motion& out);
   const JointSigns& turned_in(std::size_t clip);
   void join_section(const Section& section, OutputWindow window, std::vector<ScalarTrack> used);
 
   Plan plan_;
   JunctionSettings settings_;
   JunctionFiller filler_;
-  std::vector<std::string> tracks_;  ///< names of the tracks of all clips
-  std::vector<JointSigns> turned_;   ///< [clip] as far as computed
+  std::unique_ptr<LaneRenderer> lanes_;  ///< of the plan's runs; null: there are none
+  std::vector<std::string> tracks_;      ///< names of the tracks of all clips
+  std::vector<JointSigns> turned_;       ///< [clip] as far as computed
   JunctionScratch scratch_;
   Motion window_;
 };

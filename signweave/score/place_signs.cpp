@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace signweave {
 namespace {
@@ -17,6 +18,7 @@ struct Room {
   TimeSpan kept;               ///< the range of captured frames
   bool joined_before = false;  ///< it begins at a junction, not at the begin of the result
   bool joined_after = false;
+  std::optional<TimeSpan> held = {};  ///< the end of the last stroke is held for this time
 };
 
 /// Places a clip's signs in output time. At junctions, the first sign begins and the last ends with the room.
@@ -31,7 +33,11 @@ void place_signs_of(const MotionClip& clip, const ShownClip& placed, std::size_t
   };
   for (std::size_t i = 0; i < clip.signs.size(); ++i) {
     const Sign& source = clip.signs[i];
-    PlacedSign sign{.sign = source, .clip = index, .place = place_of_sign(clip, i, index), .recorded = source.span};
+    PlacedSign sign{.sign = source,
+                    .channel = placed.channel,
+                    .clip = index,
+                    .place = place_of_sign(clip, i, index),
+                    .recorded = source.span};
     const auto recorded_stroke = source.stroke_span();
     // True if the core begins or ends with the stroke. At a piece cut through a sign it does not; that sign is
     // unchanged.
@@ -72,6 +78,10 @@ void place_signs_of(const MotionClip& clip, const ShownClip& placed, std::size_t
     // Preparation and retraction cover the generated frames; a kept hold inside them stays a hold.
     const auto surround = [&](PhaseKind kind, const std::string& label, TimeSpan all) {
       Milliseconds from = all.begin;
+      if (kind == PhaseKind::retraction && last && room.held) {
+        add(PhaseKind::hold, {from, room.held->end}, "Hold");
+        from = std::max(from, room.held->end);
+      }
       for (const Phase& phase : source.phases) {
         const bool inside = kind == PhaseKind::preparation ? phase.span.end <= recorded_stroke->begin
                                                            : phase.span.begin >= recorded_stroke->end;
@@ -101,18 +111,57 @@ void place_signs_of(const MotionClip& clip, const ShownClip& placed, std::size_t
   }
 }
 
+/// The times for which the clips of the body are held, [clip]; empty: not held.
+std::vector<TimeSpan> holds_of_body(const Synthesis& out) {
+  std::vector<TimeSpan> holds(out.score.clips.size());
+  for (const Item& item : out.score.lanes.front().items) {
+    const auto* const held = std::get_if<Hold>(&item.what);
+    if (held == nullptr || item.at.begin == 0) continue;
+    holds[held->clip] = {time_of(item.at.begin, out.motion.rate()), time_of(item.at.end, out.motion.rate())};
+  }
+  return holds;
+}
+
+/// Places the signs of the clips that only this lane shows.
+void place_signs_of_lane(const Lane& lane, const std::vector<MotionClip>& clips, std::size_t body, Synthesis& out) {
+  const FrameRate rate = out.motion.rate();
+  const std::vector<Item>& items = lane.items;
+  for (std::size_t i = 0; i < items.size(); ++i) {
+    const auto* const use = std::get_if<ClipUse>(&items[i].what);
+    if (use == nullptr || use->clip < body || out.clips[use->clip].channel != lane.channel) continue;
+    const auto is_transition = [&](std::size_t at) {
+      return at < items.size() && std::holds_alternative<Transition>(items[at].what);
+    };
+    const auto middle = [&](std::size_t at) { return time_of((items[at].at.begin + items[at].at.end) / 2, rate); };
+    const bool is_held = i + 1 < items.size() && std::holds_alternative<Hold>(items[i + 1].what);
+    const bool joined_before = i > 0 && is_transition(i - 1);
+    const std::size_t after = is_held ? i + 2 : i + 1;
+    Room room{.span = {joined_before ? middle(i - 1) : time_of(items[i].at.begin, rate),
+                       is_transition(after) ? middle(after) : time_of(items[after - 1].at.end, rate)},
+              .kept = {time_of(items[i].at.begin, rate), time_of(items[i].at.end, rate)},
+              .joined_before = joined_before,
+              .joined_after = is_transition(after)};
+    if (is_held && is_transition(after)) {
+      room.held = TimeSpan{time_of(items[i + 1].at.begin, rate), time_of(items[i + 1].at.end, rate)};
+    }
+    place_signs_of(clips[use->clip], out.clips[use->clip], use->clip, room, out);
+  }
+}
+
 }  // namespace
 
 void place_signs(const std::vector<MotionClip>& clips, Synthesis& out) {
   const FrameRate rate = out.motion.rate();
-  for (std::size_t i = 0; i < clips.size(); ++i) {
+  const std::size_t body = body_clips(out.score);
+  const std::vector<TimeSpan> held = holds_of_body(out);
+  for (std::size_t i = 0; i < body; ++i) {
     // The boundary between two signs is the middle of the generated frames.
     const auto middle = [&](std::size_t junction) {
       const Junction& one = out.junctions[junction];
       const std::int64_t kept = one.cut.retraction_frames - one.cut.overlap();
       return time_of(one.frames.begin + kept + (one.cut.overlap() + one.cut.gap()) / 2, rate);
     };
-    const bool last = i + 1 == clips.size();
+    const bool last = i + 1 == body;
     const TimeSpan span{i == 0 ? Milliseconds(0) : middle(i - 1),
                         last ? time_of(out.motion.frame_count(), rate) : middle(i)};
     TimeSpan kept = span;
@@ -124,8 +173,11 @@ void place_signs(const std::vector<MotionClip>& clips, Synthesis& out) {
       const Junction& after = out.junctions[i];
       kept.end = time_of(after.frames.begin + after.cut.retraction_frames - after.cut.overlap(), rate);
     }
-    place_signs_of(clips[i], out.clips[i], i, {span, kept, i > 0, !last}, out);
+    const bool is_held = held[i].begin < held[i].end && !last;
+    place_signs_of(clips[i], out.clips[i], i,
+                   {span, kept, i > 0, !last, is_held ? std::optional(held[i]) : std::nullopt}, out);
   }
+  for (const Lane& lane : out.score.lanes) place_signs_of_lane(lane, clips, body, out);
 }
 
 }  // namespace signweave

@@ -39,7 +39,9 @@ struct Junction {
 /// The position of a clip in the result.
 struct ShownClip {
   std::string recording;
-  FrameRange output;       ///< of its core; if first or last, with its preparation or retraction
+  Channel channel = Channel::body;  ///< `body`: the whole body, except where other lanes differ
+  /// Of its core; if first or last, with its preparation or retraction. For a clip of one channel, all that is shown.
+  FrameRange output;
   FrameRange core;         ///< output frames of its core
   double first_frame = 0;  ///< frame of the recording at core.begin
   double step = 1;         ///< frames of the recording per output frame
@@ -47,10 +49,11 @@ struct ShownClip {
 
 /// A sign in the result.
 struct PlacedSign {
-  Sign sign;              ///< in output time; its phases cover it without gaps
-  std::size_t clip = 0;   ///< id of the clip that contains it
-  std::size_t place = 0;  ///< place of the request, from 0
-  TimeSpan recorded;      ///< its span in its recording
+  Sign sign;                        ///< in output time; its phases cover it without gaps
+  Channel channel = Channel::body;  ///< as that of its clip
+  std::size_t clip = 0;             ///< id of the clip that contains it
+  std::size_t place = 0;            ///< place of the request, from 0
+  TimeSpan recorded;                ///< its span in its recording
 };
 
 /// A generated motion and its provenance.
@@ -58,9 +61,9 @@ struct Synthesis {
   Motion motion;
   Score score;                       ///< it was rendered from this
   std::vector<FrameSource> sources;  ///< [output frame]
-  std::vector<ShownClip> clips;
-  std::vector<Junction> junctions;  ///< [clip − 1]
-  std::vector<PlacedSign> signs;    ///< in time order
+  std::vector<ShownClip> clips;      ///< [ClipId]
+  std::vector<Junction> junctions;   ///< [clip − 1] of the clips of the whole body
+  std::vector<PlacedSign> signs;     ///< in time order, those of the whole body first
   std::vector<Notice> notices;
   Declarations declarations;  ///< of the source recordings: sorted, each once
 };

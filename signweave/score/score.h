@@ -64,31 +64,50 @@ struct Transition {
   friend bool operator==(const Transition&, const Transition&) = default;
 };
 
+/// A pose that is kept: the last frame of the clip that is shown before it, or, at the begin of a lane, the first frame
+/// of the clip that is shown after it.
+struct Hold {
+  ClipId clip = 0;
+  friend bool operator==(const Hold&, const Hold&) = default;
+};
+
 struct Item {
-  std::variant<ClipUse, Transition> what;
+  std::variant<ClipUse, Transition, Hold> what;
   FrameRange at;  ///< output frames; empty for a transition between adjacent clips
   friend bool operator==(const Item&, const Item&) = default;
 };
 
-/// A part of the signer with its own lane.
+/// A part of the signer with its own lane. The first four cover the signer and are in every score; the others are parts
+/// of them, with a lane only where they show something else than their parent.
 enum class Channel : std::uint8_t {
-  body,    ///< root, trunk, head, legs; everything for a rig with unknown hands
-  left,    ///< arm and fingers
-  right,   ///< arm and fingers
-  tracks,  ///< scalar tracks, such as those of a face
+  body,           ///< root, trunk, head, legs; everything for a rig with unknown hands
+  left,           ///< arm and fingers
+  right,          ///< arm and fingers
+  tracks,         ///< scalar tracks, such as those of a face
+  left_fingers,   ///< part of `left`
+  right_fingers,  ///< part of `right`
+  head,           ///< neck and head, part of `body`
 };
 inline constexpr std::array kChannels = {Channel::body, Channel::left, Channel::right, Channel::tracks};
+inline constexpr std::array kPartChannels = {Channel::left_fingers, Channel::right_fingers, Channel::head};
+inline constexpr std::array kAllChannels = {Channel::body,   Channel::left,         Channel::right,
+                                            Channel::tracks, Channel::left_fingers, Channel::right_fingers,
+                                            Channel::head};
 std::string_view name_of(Channel channel) noexcept;
+std::optional<Channel> channel_named(std::string_view name) noexcept;
+/// The channel that a part belongs to; none for the first four.
+std::optional<Channel> parent_of(Channel channel) noexcept;
 std::string_view name_of(SourceRef::Kind kind) noexcept;
 
-/// One channel over the whole output: items without holes or overlaps. Clips and transitions alternate.
+/// One channel over the whole output: items without holes or overlaps. Clips and transitions alternate; a clip may be
+/// held before its transition, at the begin of the lane and at its end.
 struct Lane {
   Channel channel = Channel::body;
   std::vector<Item> items;
   friend bool operator==(const Lane&, const Lane&) = default;
 };
 
-/// Options of the junction between two clips, common to all lanes.
+/// Options of the junction before a clip, common to all lanes.
 struct JunctionRef {
   std::size_t number = 1;  ///< number used to refer to it: 1 is between the first two places
   std::string method;      ///< method that generates its frames
@@ -99,16 +118,22 @@ struct JunctionRef {
 struct Score {
   SourceRef skeleton;  ///< the recording that defines the output's joints
   FrameRate rate;
-  std::int64_t frames = 0;             ///< of the output
-  std::vector<Clip> clips;             ///< in the order of the utterance; [ClipId]
-  std::vector<JunctionRef> junctions;  ///< [clip − 1]
-  std::vector<Lane> lanes;             ///< [Channel]
+  std::int64_t frames = 0;  ///< of the output
+  /// Those of the lane of the body, in the order of the utterance, then those that only other lanes show. [ClipId]
+  std::vector<Clip> clips;
+  std::vector<JunctionRef> junctions;  ///< [clip − 1]; not used if no transition leads to the clip
+  std::vector<Lane> lanes;             ///< [Channel] of kChannels, then those of kPartChannels that differ
   friend bool operator==(const Score&, const Score&) = default;
 };
 
 /// A day of signing at a hundred frames a second. Frame rates come from files; a wrong one must not allocate a
 /// terabyte.
 inline constexpr std::int64_t kMostFrames = std::int64_t{24} * 60 * 60 * 100;
+
+/// The number of clips in the lane of the body: the first ones of the score. The others are of single channels.
+std::size_t body_clips(const Score& score) noexcept;
+/// The lane of a channel; null: it has none, and shows what its parent does.
+const Lane* lane_of(const Score& score, Channel channel) noexcept;
 
 /// Throws Error{bad_input, "WHERE: problem, how to fix it"} if a score cannot be rendered from any recordings: numbers
 /// out of range, lanes with holes, clips out of order.

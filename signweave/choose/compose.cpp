@@ -1,0 +1,285 @@
+#include "signweave/choose/compose.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <tuple>
+
+#include "signweave/choose/channel_chains.h"
+#include "signweave/choose/joint_setup.h"
+#include "signweave/choose/junction_timer.h"
+#include "signweave/core/error.h"
+#include "signweave/core/text.h"
+#include "signweave/render/held_clip.h"
+#include "signweave/render/render.h"
+#include "signweave/score/lane_chain.h"
+#include "signweave/score/schedule.h"
+
+namespace signweave {
+namespace {
+
+/// A transition may be this much longer than its usual length before its first pose is held instead. (ours)
+constexpr double kLongest = 1.5;
+
+Timed timed_of(Channel channel) noexcept {
+  switch (channel) {
+    case Channel::left:
+    case Channel::left_fingers:
+      return Timed::left;
+    case Channel::right:
+    case Channel::right_fingers:
+      return Timed::right;
+    case Channel::body:
+    case Channel::tracks:
+    case Channel::head:
+      return Timed::body;
+  }
+  return Timed::body;
+}
+
+/// A constraint of the schedule with what it means to the author.
+struct Reason {
+  TimeConstraint constraint;
+  std::string text;
+};
+
+class Composer {
+ public:
+  Composer(std::vector<MotionClip> clips, std::size_t body, const ChannelParts& parts, const JunctionSettings& settings,
+           const ConcatenateOptions& options)
+      : clips_(std::move(clips)),
+        body_(body),
+        parts_(parts),
+        settings_(settings),
+        options_(options),
+        timer_(settings, {.fit = options.fit, .duration = options.duration, .tempo = options.tempo}),
+        chains_(channel_chains(parts, clips_, body)) {}
+
+  const std::vector<MotionClip>& clips() const noexcept { return clips_; }
+
+  Score score(const SourceRef& skeleton) {
+    place();
+    solve();
+    stand();
+    Score score{
+        .skeleton = skeleton, .rate = settings_.rate, .frames = frames(), .clips = {}, .junctions = {}, .lanes = {}};
+    for (std::size_t i = 0; i < placed_.size(); ++i) {
+      score.clips.push_back(clip_of(placed_[i], static_cast<ClipId>(i)));
+      if (i == 0) continue;
+      score.junctions.push_back({.number = clips_[i].place.value_or(i),
+                                 .method = std::string(method_of(settings_, placed_[i]).name),
+                                 .chosen = to_string(clips_[i].junction)});
+    }
+    for (const ChannelChain& chain : chains_) score.lanes.push_back(lane_of(chain, score));
+    return score;
+  }
+
+ private:
+  void place() {
+    placed_.reserve(clips_.size());
+    for (const MotionClip& clip : clips_) {
+      placed_.push_back(placed_at_tempo(clip, settings_.rate, options_.tempo));
+    }
+    for (std::size_t i = 0; i < parts_.clips.size(); ++i) {
+      if (!parts_.clips[i].fill) continue;
+      const PlacedClip& whole = placed_[parts_.clips[i].first];
+      PlacedClip& filled = placed_[body_ + i];
+      const auto frames = static_cast<double>(clips_[body_ + i].core.size());
+      filled = placed_by_step(clips_[body_ + i], frames / static_cast<double>(whole.core_frames));
+      filled.core_frames = whole.core_frames;
+    }
+  }
+
+  std::string name(std::size_t clip) const {
+    const MotionClip& one = clips_[clip];
+    return one.signs.empty() ? fmt::format("a piece of '{}'", printable(one.recording))
+                             : fmt::format("'{}'", printable(one.signs.front().gloss));
+  }
+
+  /// The usual length of a transition and its cuts.
+  const JunctionCuts& usual(std::size_t from, std::size_t to, bool held) {
+    const auto [at, is_new] = usual_.try_emplace({from, to, held});
+    if (!is_new) return at->second;
+    const bool of_body = to == from + 1 && to < body_;
+    const Milliseconds pause = of_body && !held ? clips_[to].pause_before : Milliseconds(0);
+    if (held) {
+      const HeldClip still = hold(placed_[from], {.after_core = 1});
+      at->second = timer_.cuts_between(still.placed, placed_[to], pause, scratch_);
+    } else {
+      at->second = timer_.cuts_between(placed_[from], placed_[to], pause, scratch_);
+    }
+    return at->second;
+  }
+
+  std::int64_t frames_in(Milliseconds time) const {
+    return std::llround(Seconds(time).count() / options_.tempo * settings_.rate.hertz());
+  }
+
+  /// Each clip must come late enough after the one before it in every lane, and with those that it is tied to.
+  std::vector<Reason> reasons() {
+    std::vector<Reason> all;
+    for (const ChannelChain& chain : chains_) {
+      if (chain.channel == Channel::tracks) continue;
+      for (std::size_t i = 0; i + 1 < chain.links.size(); ++i) {
+        const ChannelLink& from = chain.links[i];
+        const ChannelLink& to = chain.links[i + 1];
+        const std::int64_t length = usual(from.clip, to.clip, from.held_until.has_value()).tracks.length;
+        all.push_back({{from.clip, to.clip, placed_[from.clip].core_frames + length},
+                       fmt::format("{} comes after {} in the lane '{}'", name(to.clip), name(from.clip),
+                                   name_of(chain.channel))});
+        if (!from.held_until) continue;
+        const std::size_t until = *from.held_until;
+        all.push_back({{until, to.clip, placed_[until].core_frames + length},
+                       fmt::format("{} is held in the lane '{}' until {} ends", name(from.clip), name_of(chain.channel),
+                                   name(until))});
+      }
+    }
+    for (std::size_t i = 0; i < parts_.clips.size(); ++i) {
+      for (const ClipSync& sync : parts_.clips[i].sync) tie(body_ + i, sync, all);
+    }
+    return all;
+  }
+
+  void tie(std::size_t clip, const ClipSync& sync, std::vector<Reason>& all) const {
+    const bool at_end = sync.anchor == ClipSync::Anchor::end;
+    std::int64_t offset = frames_in(sync.offset);
+    if (at_end) offset += placed_[sync.with].core_frames - placed_[clip].core_frames;
+    const std::string text =
+        fmt::format("{} {} {}{}", name(clip), at_end ? "ends with" : "begins with", name(sync.with),
+                    sync.offset == Milliseconds(0) ? std::string() : fmt::format(" {:+} ms", sync.offset.count()));
+    all.push_back({{sync.with, clip, offset}, text});
+    all.push_back({{clip, sync.with, -offset}, text});
+  }
+
+  void solve() {
+    const std::vector<Reason> all = reasons();
+    std::vector<TimeConstraint> constraints;
+    for (const Reason& reason : all) constraints.push_back(reason.constraint);
+    std::vector<std::int64_t> earliest(placed_.size(), 0);
+    earliest[0] = placed_[0].preparation;
+    const Schedule found = schedule(earliest, constraints);
+    if (!found.contradiction.empty()) contradict(all, found.contradiction);
+    for (std::size_t i = 0; i < placed_.size(); ++i) placed_[i].core = found.moments[i];
+  }
+
+  [[noreturn]] void contradict(const std::vector<Reason>& all, const std::vector<std::size_t>& cycle) const {
+    std::vector<std::string> texts;
+    std::string lengths;
+    for (const std::size_t i : cycle) {
+      if (std::ranges::find(texts, all[i].text) != texts.end()) continue;
+      texts.push_back(all[i].text);
+      const std::size_t clip = all[i].constraint.from;
+      const double ms = 1000.0 * static_cast<double>(placed_[clip].core_frames) / settings_.rate.hertz();
+      lengths += fmt::format("{}{} takes {:.0f} ms", lengths.empty() ? "" : ", ", name(clip), ms);
+    }
+    throw Error(ErrorCode::bad_input,
+                fmt::format("these cannot all be true: {}; strokes keep their length ({}), so leave out one of them",
+                            fmt::join(texts, "; "), lengths));
+  }
+
+  void stand() {
+    Motion memory;
+    const std::string& home_recording = clips_[options_.reference].recording;
+    std::optional<Standing> home;
+    for (std::size_t i = 0; i < placed_.size(); ++i) {
+      if (!is_aligned(options_.alignment, clips_[i].recording, home_recording)) continue;
+      if (!home) home = standing_of(placed_[options_.reference], settings_, memory);
+      placed_[i].standing = align(standing_of(placed_[i], settings_, memory), *home);
+    }
+  }
+
+  /// The length of the output: until the last retraction of any lane.
+  std::int64_t frames() const {
+    std::int64_t end = 0;
+    for (const ChannelChain& chain : chains_) {
+      const ChannelLink& last = chain.links.back();
+      const PlacedClip& placed = placed_[last.clip];
+      end = std::max(end, placed.core_end() + (last.held_until ? 0 : placed.retraction));
+    }
+    if (end > options_.most_frames) {
+      throw Error(ErrorCode::bad_input,
+                  fmt::format("the result would have {} frames, more than {}; sign fewer signs, or at a lower rate",
+                              end, options_.most_frames),
+                  {{"rate", ""}});
+    }
+    return end;
+  }
+
+  /// What is held after a clip, and the cut of the transition after that.
+  LaneLink joined(const ChannelChain& chain, std::size_t link) {
+    const ChannelLink& from = chain.links[link];
+    const ChannelLink& to = chain.links[link + 1];
+    LaneLink made{.clip = static_cast<ClipId>(from.clip), .cut = {}};
+    const bool is_held = from.held_until.has_value();
+    const JunctionCuts& usual_cuts = usual(from.clip, to.clip, is_held);
+    const std::int64_t length = usual_cuts.tracks.length;
+    const std::int64_t time = placed_[to.clip].core - placed_[from.clip].core_end();
+    const bool has_time_left = static_cast<double>(time) > kLongest * static_cast<double>(length);
+    if (is_held || has_time_left) made.held = time - length;
+    const auto [at, is_new] = cuts_.try_emplace({from.clip, to.clip, made.held});
+    if (is_new) {
+      if (made.held == 0 && time == length && !is_held) {
+        at->second = usual_cuts;
+      } else {
+        const bool of_body = to.clip == from.clip + 1 && to.clip < body_;
+        const Milliseconds pause = of_body && made.held == 0 ? clips_[to.clip].pause_before : Milliseconds(0);
+        std::optional<HeldClip> still;
+        if (made.held > 0) still = hold(placed_[from.clip], {.after_core = made.held});
+        at->second = timer_.cuts_between(still ? still->placed : placed_[from.clip], placed_[to.clip], pause, scratch_,
+                                         time - made.held);
+      }
+    }
+    made.cut = chain.channel == Channel::tracks ? at->second.tracks
+                                                : at->second.parts[static_cast<std::size_t>(timed_of(chain.channel))];
+    return made;
+  }
+
+  Lane lane_of(const ChannelChain& chain, const Score& score) {
+    LaneChain links;
+    for (std::size_t i = 0; i + 1 < chain.links.size(); ++i) links.push_back(joined(chain, i));
+    const ChannelLink& last = chain.links.back();
+    const PlacedClip& end = placed_[last.clip];
+    const std::int64_t shown_after = last.held_until ? 0 : end.retraction;
+    links.push_back({.clip = static_cast<ClipId>(last.clip),
+                     .held = std::max<std::int64_t>(0, score.frames - end.core_end() - shown_after),
+                     .cut = {}});
+    const PlacedClip& first = placed_[chain.links.front().clip];
+    links.front().held_before = std::max<std::int64_t>(0, first.core - first.preparation);
+    return signweave::lane_of(chain.channel, links, score.clips, score.frames);
+  }
+
+  std::vector<MotionClip> clips_;  ///< those of the body, then those of the parts
+  std::size_t body_;
+  const ChannelParts& parts_;
+  const JunctionSettings& settings_;
+  const ConcatenateOptions& options_;
+  JunctionTimer timer_;
+  JunctionScratch scratch_;
+  std::vector<ChannelChain> chains_;
+  std::vector<PlacedClip> placed_;  ///< [clip]
+  std::map<std::tuple<std::size_t, std::size_t, bool>, JunctionCuts> usual_;
+  std::map<std::tuple<std::size_t, std::size_t, std::int64_t>, JunctionCuts> cuts_;
+};
+
+}  // namespace
+
+Synthesis compose(const std::vector<MotionClip>& clips, const ChannelParts& parts, const ConcatenateOptions& options,
+                  Synthesis used) {
+  if (parts.empty()) return concatenate(clips, options, std::move(used));
+  std::vector<MotionClip> all = clips;
+  for (const ChannelClip& part : parts.clips) all.push_back(part.clip);
+  const JointSetup setup(all, options);
+  Composer composer(std::move(all), clips.size(), parts, setup.settings, options);
+  Score score = composer.score(source_of(clips.at(options.reference)));
+  check(score, "score");
+  Synthesis out;
+  out.motion = std::move(used.motion);
+  out.sources = std::move(used.sources);
+  render(std::move(score), composer.clips(), setup.settings, out);
+  return out;
+}
+
+}  // namespace signweave

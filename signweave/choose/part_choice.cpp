@@ -1,0 +1,167 @@
+#include "signweave/choose/part_choice.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "signweave/choose/missing_glosses.h"
+#include "signweave/core/error.h"
+#include "signweave/core/text.h"
+
+namespace signweave {
+namespace {
+
+/// Most signers are right-handed.
+constexpr Side kUsuallyDominant = Side::right;
+
+Channel hand(Side side) noexcept {
+  return side == Side::left ? Channel::left : Channel::right;
+}
+Channel fingers(Side side) noexcept {
+  return side == Side::left ? Channel::left_fingers : Channel::right_fingers;
+}
+Side other(Side side) noexcept {
+  return side == Side::left ? Side::right : Side::left;
+}
+
+bool is_fingers(Channel channel) noexcept {
+  return channel == Channel::left_fingers || channel == Channel::right_fingers;
+}
+
+bool is_same(const Candidate& a, const Candidate& b) {
+  return a.recording == b.recording && a.core == b.core && a.first_row == b.first_row;
+}
+
+}  // namespace
+
+Channel channel_of(BodyPart part, Side dominant) noexcept {
+  switch (part) {
+    case BodyPart::dominant:
+      return hand(dominant);
+    case BodyPart::weak:
+      return hand(other(dominant));
+    case BodyPart::right:
+      return Channel::right;
+    case BodyPart::left:
+      return Channel::left;
+    case BodyPart::dominant_fingers:
+      return fingers(dominant);
+    case BodyPart::weak_fingers:
+      return fingers(other(dominant));
+    case BodyPart::right_fingers:
+      return Channel::right_fingers;
+    case BodyPart::left_fingers:
+      return Channel::left_fingers;
+    case BodyPart::head:
+      return Channel::head;
+  }
+  return Channel::left;
+}
+
+std::vector<PartChoice> part_choices(const Contents& contents, const Utterance& utterance) {
+  Utterance all;  // every sign of a part, to report all that are missing at once
+  for (const Place& place : utterance.places) {
+    for (const PlacePart& part : place.parts) {
+      for (const PartSign& sign : part.signs) all.places.push_back({{sign.sign}, Milliseconds(0), {}, {}});
+    }
+  }
+  if (!all.places.empty()) require_glosses(all, contents.segments);
+  std::vector<PartChoice> choices;
+  for (std::size_t i = 0; i < utterance.places.size(); ++i) {
+    const Place& place = utterance.places[i];
+    for (const PlacePart& part : place.parts) {
+      PartChoice& choice = choices.emplace_back(
+          PartChoice{.place = i,
+                     .last = std::min(i + std::max<std::size_t>(part.places, 1), utterance.places.size()) - 1,
+                     .channel = channel_of(part.part, place.dominant.value_or(kUsuallyDominant)),
+                     .signs = {},
+                     .sync = {}});
+      for (const PartSign& sign : part.signs) {
+        choice.signs.push_back(candidates_for(contents, sign.sign));
+        choice.sync.push_back(sign.sync);
+      }
+      for (const PartChoice& before : choices) {
+        if (&before == &choice || before.place != i || before.channel != choice.channel) continue;
+        throw Error(ErrorCode::bad_input, fmt::format("'{}': two parts are of the channel '{}'; give it one sign at a "
+                                                      "time",
+                                                      printable(to_string(place.gloss)), name_of(choice.channel)));
+      }
+    }
+  }
+  return choices;
+}
+
+std::set<std::size_t> clip_borders(const Utterance& utterance) {
+  std::set<std::size_t> borders;
+  for (std::size_t i = 0; i < utterance.places.size(); ++i) {
+    for (const PlacePart& part : utterance.places[i].parts) {
+      borders.insert(i);
+      borders.insert(i + part.places);
+    }
+  }
+  for (const HandHold& held : utterance.holds) {
+    borders.insert(held.from + 1);
+    borders.insert(held.until + 1);
+  }
+  return borders;
+}
+
+std::vector<ChosenPart> choose_parts(const Snapshot& snapshot, std::span<const PartChoice> parts,
+                                     std::span<const Candidate* const> chosen, std::span<const Choice> places,
+                                     const SelectOptions& options) {
+  std::vector<ChosenPart> result;
+  for (const PartChoice& part : parts) {
+    const Candidate& own = *chosen[part.place];
+    const auto find_own = [&](const std::vector<Candidate>& candidates) {
+      return std::ranges::find_if(candidates, [&](const Candidate& one) { return is_same(one, own); });
+    };
+    const bool has_own = find_own(part.signs.front()) != part.signs.front().end();
+    if (has_own && part.signs.size() == 1 && part.last == part.place && part.sync.front().empty()) continue;
+    // What is signed before, the signs of the part, what is signed after.
+    std::vector<Choice> chain;
+    const std::size_t before = part.place > 0 ? 1 : 0;
+    if (before > 0) chain.push_back({.candidates = {*chosen[part.place - 1]}});
+    for (std::size_t i = 0; i < part.signs.size(); ++i) {
+      const auto same = i == 0 ? find_own(part.signs[i]) : part.signs[i].end();
+      chain.push_back(same == part.signs[i].end() ? Choice{.candidates = part.signs[i]}
+                                                  : Choice{.candidates = {*same}});
+    }
+    if (part.last + 1 < places.size()) chain.push_back({.candidates = {*chosen[part.last + 1]}});
+    const Selection selection = select(snapshot, chain, {.transition = options.transition});
+    for (std::size_t i = 0; i < part.signs.size(); ++i) {
+      const std::size_t at = before + i;
+      result.push_back({&part, i, chain[at].candidates[selection.chosen[at]]});
+    }
+  }
+  return result;
+}
+
+ChannelClip channel_clip(const ChosenPart& chosen, std::span<const std::size_t> clip_of) {
+  const PartChoice& part = *chosen.part;
+  ChannelClip clip{.channel = part.channel,
+                   .clip = {},
+                   .first = clip_of[part.place],
+                   .last = clip_of[part.last],
+                   .sync = {},
+                   .fill = is_fingers(part.channel) && part.signs.size() == 1 && part.sync.front().empty()};
+  for (const SyncMark& mark : part.sync[chosen.sign]) {
+    clip.sync.push_back(
+        {.anchor = mark.anchor == SyncMark::Anchor::end ? ClipSync::Anchor::end : ClipSync::Anchor::begin,
+         .with = clip.first,
+         .offset = mark.offset});
+  }
+  if (clip.sync.empty() && chosen.sign == 0) clip.sync.push_back({.with = clip.first});
+  return clip;
+}
+
+std::vector<ChannelHold> channel_holds(const Utterance& utterance, std::span<const std::size_t> clip_of) {
+  std::vector<ChannelHold> holds;
+  for (const HandHold& held : utterance.holds) {
+    const Side dominant = utterance.places[held.from].dominant.value_or(kUsuallyDominant);
+    holds.push_back(
+        {.channel = channel_of(held.hand, dominant), .from = clip_of[held.from], .until = clip_of[held.until]});
+  }
+  return holds;
+}
+
+}  // namespace signweave

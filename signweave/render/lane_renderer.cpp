@@ -1,0 +1,147 @@
+#include "signweave/render/lane_renderer.h"
+
+#include <algorithm>
+
+#include "signweave/render/render.h"
+
+namespace signweave {
+namespace {
+
+FrameRange common(FrameRange a, FrameRange b) noexcept {
+  const std::int64_t begin = std::max(a.begin, b.begin);
+  return {begin, std::max(begin, std::min(a.end, b.end))};
+}
+
+GroupSet groups_of(Channel channel) noexcept {
+  switch (channel) {
+    case Channel::left:
+      return {JointGroup::left_arm, JointGroup::left_fingers};
+    case Channel::right:
+      return {JointGroup::right_arm, JointGroup::right_fingers};
+    case Channel::left_fingers:
+      return {JointGroup::left_fingers};
+    case Channel::right_fingers:
+      return {JointGroup::right_fingers};
+    case Channel::body:
+    case Channel::tracks:
+    case Channel::head:
+      return {};
+  }
+  return {};
+}
+
+/// True for the neck or head of a rig and everything that grows from it, [joint].
+std::vector<bool> joints_of_head(const Skeleton& skeleton, const SignerRig& rig) {
+  const RigMap& map = rig.signer.rig;
+  const JointIndex root = map[Part::neck].joint != kNoJoint ? map[Part::neck].joint : map[Part::head].joint;
+  std::vector<bool> of_head(skeleton.joint_count(), false);
+  for (std::size_t joint = 0; joint < of_head.size(); ++joint) {
+    const JointIndex parent = skeleton.joints()[joint].parent;
+    const bool grows =
+        static_cast<JointIndex>(joint) == root || (parent != kNoJoint && of_head[static_cast<std::size_t>(parent)]);
+    of_head[joint] = root != kNoJoint && grows && rig.groups.of[joint] == JointGroup::body;
+  }
+  return of_head;
+}
+
+void negate(const std::vector<std::size_t>& joints, const JointSigns& turned, MutablePoseView pose) noexcept {
+  for (std::size_t i = 0; i < joints.size(); ++i) {
+    if (turned[i]) pose.rotations[joints[i]].coeffs() *= -1.0f;
+  }
+}
+
+}  // namespace
+
+LaneRenderer::LaneRenderer(std::span<const LaneRun> runs, const JunctionSettings& settings) : settings_(settings) {
+  joints_.resize(kChannels.size() + kPartChannels.size());
+  for (const LaneRun& run : runs) {
+    Joints& joints = joints_[static_cast<std::size_t>(run.channel)];
+    if (joints.rotations.empty()) joints = joints_of(run.channel);
+    strands_.push_back(
+        {.run = &run, .renderer = std::make_unique<Renderer>(run.plan, settings, Renderer::Tracks::left_out)});
+  }
+}
+
+LaneRenderer::~LaneRenderer() = default;
+
+LaneRenderer::Joints LaneRenderer::joints_of(Channel channel) const {
+  const Skeleton& skeleton = *settings_.skeleton;
+  const JointGroups& groups = settings_.rig->groups;
+  const GroupSet wanted = groups_of(channel);
+  const std::vector<bool> head =
+      channel == Channel::head ? joints_of_head(skeleton, *settings_.rig) : std::vector<bool>(skeleton.joint_count());
+  Joints joints;
+  std::size_t translation = 0;
+  for (std::size_t joint = 0; joint < skeleton.joint_count(); ++joint) {
+    const bool is_of_channel = wanted.has(groups.of[joint]) || head[joint];
+    if (is_of_channel) joints.rotations.push_back(joint);
+    if (!skeleton.joints()[joint].translated) continue;
+    if (is_of_channel) joints.translations.push_back(translation);
+    ++translation;
+  }
+  return joints;
+}
+
+/// A strand shows its first clip with the signs of its lane there, and its parent is shown after it with the signs that
+/// the strand ends with.
+void LaneRenderer::find_signs(std::size_t strand, const RenderBody& body) {
+  Strand& now = strands_[strand];
+  if (now.turned) return;
+  const std::vector<std::size_t>& of_channel = joints(strand).rotations;
+  Motion theirs(settings_.skeleton, settings_.rate, 1);
+  Motion ours(settings_.skeleton, settings_.rate, 1);
+  // Compares the strand with what is below it, in a frame of a clip that both show.
+  const auto compare = [&](std::int64_t frame) {
+    body({frame, frame + 1}, theirs);
+    apply(strand, {theirs, frame}, body);
+    now.renderer->render({frame, frame + 1}, ours);
+    JointSigns differ(of_channel.size());
+    for (std::size_t i = 0; i < of_channel.size(); ++i) {
+      differ[i] = theirs.pose(0).rotations[of_channel[i]].dot(ours.pose(0).rotations[of_channel[i]]) < 0;
+    }
+    return differ;
+  };
+  JointSigns turned(of_channel.size(), false);
+  if (now.run->from_parent) turned = compare(now.run->frames.begin - 1);
+  // Below it, after it, the flips of the run before are shown as well, and this one's replace them.
+  JointSigns flipped(of_channel.size(), false);
+  if (now.run->back_to_parent) {
+    flipped = compare(now.run->frames.end);
+    for (std::size_t i = 0; i < of_channel.size(); ++i) flipped[i] = flipped[i] != turned[i];
+  }
+  now.turned = std::move(turned);
+  now.flipped = std::move(flipped);
+}
+
+void LaneRenderer::apply(OutputWindow window, const RenderBody& body) {
+  apply(strands_.size(), window, body);
+}
+
+/// Applies the first strands. The flips of a lane's runs add up: each one is relative to what is shown with those
+/// before.
+void LaneRenderer::apply(std::size_t strands, OutputWindow window, const RenderBody& body) {
+  for (std::size_t i = 0; i < strands; ++i) {
+    Strand& now = strands_[i];
+    if (now.run->frames.begin >= window.frames().end) continue;
+    find_signs(i, body);
+    const Joints& channel = joints(i);
+    const FrameRange shown = common(now.run->frames, window.frames());
+    if (!shown.empty()) {
+      now.renderer->render(shown, shown_);
+      for (std::int64_t frame = shown.begin; frame < shown.end; ++frame) {
+        const MutablePoseView from = shown_.pose(frame - shown.begin);
+        const MutablePoseView to = window.pose(frame);
+        for (const std::size_t joint : channel.rotations) to.rotations[joint] = from.rotations[joint];
+        for (const std::size_t moved : channel.translations) to.translations[moved] = from.translations[moved];
+        negate(channel.rotations, *now.turned, to);
+      }
+    }
+    const FrameRange after = common({now.run->frames.end, window.frames().end}, window.frames());
+    if (std::ranges::find(*now.flipped, true) == now.flipped->end()) continue;
+    for (std::int64_t frame = after.begin; frame < after.end; ++frame) {
+      negate(channel.rotations, *now.flipped, window.pose(frame));
+    }
+  }
+}
+
+}  // namespace signweave

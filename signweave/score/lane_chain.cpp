@@ -1,0 +1,85 @@
+#include "signweave/score/lane_chain.h"
+
+#include <algorithm>
+
+namespace signweave {
+
+LaneChain chain_of(const Lane& lane) {
+  LaneChain chain;
+  std::int64_t held_before = 0;
+  for (const Item& item : lane.items) {
+    if (const auto* const use = std::get_if<ClipUse>(&item.what)) {
+      chain.push_back({.clip = use->clip, .held_before = held_before, .cut = {}});
+      held_before = 0;
+    } else if (std::holds_alternative<Hold>(item.what)) {
+      (chain.empty() ? held_before : chain.back().held) = item.at.size();
+    } else {
+      chain.back().cut = std::get<Transition>(item.what).cut;
+    }
+  }
+  return chain;
+}
+
+Lane lane_of(Channel channel, const LaneChain& chain, const std::vector<Clip>& clips, std::int64_t frames) {
+  Lane lane{.channel = channel, .items = {}};
+  std::int64_t begin = 0;
+  if (!chain.empty() && chain.front().held_before > 0) {
+    begin = chain.front().held_before;
+    lane.items.push_back({Hold{chain.front().clip}, {0, begin}});
+  }
+  for (std::size_t i = 0; i < chain.size(); ++i) {
+    const LaneLink& link = chain[i];
+    if (i + 1 == chain.size()) {
+      lane.items.push_back({ClipUse{link.clip}, {begin, frames - link.held}});
+      if (link.held > 0) lane.items.push_back({Hold{link.clip}, {frames - link.held, frames}});
+      break;
+    }
+    const LaneLink& next = chain[i + 1];
+    const std::int64_t core_end = clips[link.clip].at.end;
+    const std::int64_t end = core_end + link.held + link.cut.kept_after();
+    const std::int64_t resumes = clips[next.clip].at.begin - link.cut.kept_before();
+    if (link.held > 0) {
+      lane.items.push_back({ClipUse{link.clip}, {begin, core_end}});
+      lane.items.push_back({Hold{link.clip}, {core_end, end}});
+    } else {
+      lane.items.push_back({ClipUse{link.clip}, {begin, end}});
+    }
+    lane.items.push_back({Transition{link.clip, next.clip, link.cut}, {end, resumes}});
+    begin = resumes;
+  }
+  return lane;
+}
+
+std::vector<LaneDifference> differences(const LaneChain& lane, const LaneChain& parent, bool same_cuts) {
+  constexpr auto kNone = static_cast<std::size_t>(-1);
+  // Clips stand in both chains in the order of time, so one pass finds each in the parent's.
+  std::vector<std::size_t> in_parent(lane.size(), kNone);
+  for (std::size_t i = 0, p = 0; i < lane.size(); ++i) {
+    const auto at = std::find_if(parent.begin() + static_cast<std::ptrdiff_t>(p), parent.end(),
+                                 [&](const LaneLink& link) { return link.clip == lane[i].clip; });
+    if (at == parent.end()) continue;
+    in_parent[i] = static_cast<std::size_t>(at - parent.begin());
+    p = in_parent[i] + 1;
+  }
+  const auto joined_alike = [&](std::size_t i) {
+    if (in_parent[i] == kNone || in_parent[i + 1] != in_parent[i] + 1) return false;
+    const LaneLink& theirs = parent[in_parent[i]];
+    return lane[i].held == theirs.held && (!same_cuts || lane[i].cut == theirs.cut);
+  };
+  const bool begins_alike = in_parent.front() == 0 && lane.front().held_before == parent.front().held_before;
+  const bool ends_alike = in_parent.back() == parent.size() - 1 && lane.back().held == parent.back().held;
+  std::vector<LaneDifference> found;
+  for (std::size_t i = 0; i < lane.size();) {
+    const bool opens = i == 0 && !begins_alike;
+    std::size_t last = i;
+    while (last + 1 < lane.size() && !joined_alike(last)) ++last;
+    const bool closes = last + 1 == lane.size() && !ends_alike;
+    if (opens || closes || last > i) {
+      found.push_back({.first = i, .last = last, .from_parent = !opens, .back_to_parent = !closes});
+    }
+    i = last + 1;
+  }
+  return found;
+}
+
+}  // namespace signweave

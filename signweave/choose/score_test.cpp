@@ -172,7 +172,7 @@ std::string fault_of(const std::string& text, const std::string& instead, bool a
 TEST(ScoreOfClips, ErrorsSayWhereAndWhat) {
   EXPECT_EQ(fault_of("\"id\": 1", "\"id\": 1"), "no fault");
   EXPECT_THAT(fault_of("{", "["), HasSubstr("my.json:"));
-  EXPECT_THAT(fault_of("\"signweave_score\": 1", "\"signweave_score\": 2"), HasSubstr("a score of version 2"));
+  EXPECT_THAT(fault_of("\"signweave_score\": 1", "\"signweave_score\": 3"), HasSubstr("a score of version 3"));
   EXPECT_THAT(fault_of("\"signweave_score\"", "\"other\""), HasSubstr("my.json: the whole: it must be a score"));
   EXPECT_THAT(fault_of("\"id\": 1", "\"id\": 2"), HasSubstr("clip 1 has the id 2"));
   EXPECT_THAT(fault_of("\"id\": 1", "\"id\": -1"), HasSubstr("clips[1].id: it must be a whole number of 0 or more"));
@@ -184,7 +184,7 @@ TEST(ScoreOfClips, ErrorsSayWhereAndWhat) {
   EXPECT_THAT(fault_of("\"method\": \"overlap\"", "\"method\": \"fade\""), HasSubstr("no transition method 'fade'"));
   EXPECT_THAT(fault_of("\"channel\": \"left\"", "\"channel\": \"body\""),
               HasSubstr("lane 'body' is where 'left' belongs"));
-  EXPECT_THAT(fault_of("\"retraction\": ", "\"retraction\": 9"), HasSubstr("lane 'body': transition 0"));
+  EXPECT_THAT(fault_of("\"retraction\": ", "\"retraction\": 9"), HasSubstr("lane 'body': the transition from clip 0 to 1 keeps more"));
   EXPECT_THAT(fault_of("\"frames\": ", "\"frames\": 1"), HasSubstr("lane 'body' ends at frame"));
   EXPECT_THAT(fault_of("\"frames\": ", "\"frames\": 99999999"), HasSubstr("a score has 1 to 8640000"));
   EXPECT_THAT(fault_of("\"at\": [20, 60]", "\"at\": [20, 9000000000000000000]"),

@@ -148,8 +148,12 @@ struct Checker {
     std::optional<Channel> before;
     for (std::size_t i = 0; i < score.lanes.size(); ++i) {
       const Channel channel = score.lanes[i].channel;
-      require(i < kBase ? channel == kChannels[i] : parent_of(channel) && before < channel,
-              "lane '{}' is at a place where it does not belong", name_of(channel));
+      if (i < kBase) {
+        require(channel == kChannels[i], "lane '{}' is where '{}' belongs", name_of(channel), name_of(kChannels[i]));
+      } else {
+        require(parent_of(channel) && before < channel, "lane '{}' is not where it belongs: after '{}'",
+                name_of(channel), name_of(*before));
+      }
       before = channel;
     }
     for (const Lane& one : score.lanes) lane(one);

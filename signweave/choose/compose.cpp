@@ -104,6 +104,14 @@ class Composer {
     const auto [at, is_new] = usual_.try_emplace({from, to, held});
     if (!is_new) return at->second;
     const bool of_body = to == from + 1 && to < body_;
+    if (of_body && !held && clips_[to].continues) {
+      const std::int64_t recorded = clips_[to].core.begin - clips_[from].core.end;
+      const std::int64_t length = std::min(
+          placed_[from].retraction, std::int64_t{std::llround(static_cast<double>(recorded) / placed_[from].step)});
+      at->second.tracks = {.length = length, .retraction_frames = length};
+      at->second.parts.fill(at->second.tracks);
+      return at->second;
+    }
     const Milliseconds pause = of_body && !held ? clips_[to].pause_before : Milliseconds(0);
     if (held) {
       const HeldClip still = hold(placed_[from], {.after_core = 1});

@@ -146,6 +146,37 @@ TEST(ComposeTest, FingersFillTheStrokeOfAnotherSign) {
             1e-3);
 }
 
+/// Two clips of one recording whose transition is captured.
+std::vector<MotionClip> neighbours() {
+  MotionClip first = sign("A", 0.1f, 20, 40, 90);
+  MotionClip second = first;
+  second.core = {first.core.end + 50, first.core.end + 80};
+  second.whole = {first.core.end + 10, first.whole.end};
+  second.continues = true;
+  first.whole.end = second.core.begin;
+  return {first, second};
+}
+
+TEST(ComposeTest, NeighboursKeepTheirRecordedTransitionWhileAPartSignsSomethingElse) {
+  const std::vector<MotionClip> clips = neighbours();
+  const Synthesis made = compose(clips, {{part(Channel::left, sign("X", 2.5f, 20, 20, 20), 0, 0)}, {}}, options());
+  EXPECT_EQ(made.score.clips[1].at.begin, made.score.clips[0].at.end + 50);
+  const Motion& source = motion_of(clips[0]);
+  const auto left = static_cast<std::size_t>(*person()->find("LeftArm"));
+  bool left_differs = false;
+  for (std::int64_t frame = 0; frame < made.score.clips[1].at.end; ++frame) {
+    const PoseView recorded = source.pose(clips[0].whole.begin + frame);
+    for (std::size_t joint = 0; joint < person()->joint_count(); ++joint) {
+      const bool same = made.motion.pose(frame).rotations[joint].coeffs() == recorded.rotations[joint].coeffs();
+      if (joint == left) left_differs = left_differs || !same;
+      const JointGroup group = rig().groups.of[joint];
+      if (group != JointGroup::left_arm && group != JointGroup::left_fingers)
+        ASSERT_TRUE(same) << frame << ' ' << joint;
+    }
+  }
+  EXPECT_TRUE(left_differs);
+}
+
 /// A random utterance of a few signs, of which parts of the body sign something else.
 struct Drawn {
   std::vector<MotionClip> clips;

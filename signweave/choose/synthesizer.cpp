@@ -26,6 +26,7 @@ struct ChosenClip {
   Candidate candidate;
   std::size_t place = 0;  ///< the first of its places, and so the number of the junction before it
   std::vector<std::size_t> sign_places = std::vector<std::size_t>(candidate.signs.size(), place);  ///< [sign]
+  bool continues = false;                                                                          ///< see MotionClip
 };
 
 /// What is signed: places, and what parts of the signer sign besides.
@@ -36,7 +37,7 @@ struct Wanted {
 };
 
 /// If the junction between neighbours is named, its transition is generated, because options were given for it. At
-/// `borders`, places at which parts begin or end, it is generated as well.
+/// `borders`, places at which parts begin or end, neighbours stay two clips with the recorded transition.
 std::vector<ChosenClip> merge_neighbours(const Contents& contents, const std::vector<Choice>& choices,
                                          const Selection& selection, const JunctionChoices& named,
                                          const std::set<std::size_t>& borders, std::vector<Notice>& notices) {
@@ -56,7 +57,11 @@ std::vector<ChosenClip> merge_neighbours(const Contents& contents, const std::ve
                                      "generated because junction {} is named",
                                      merged.back().candidate.signs.back().gloss, next.gloss(), place)});
     }
-    merged.push_back({next, place});
+    ChosenClip& added = merged.emplace_back(ChosenClip{.candidate = next, .place = place});
+    if (!goes_on || named.contains(place)) continue;
+    added.continues = true;
+    Candidate& before = merged[merged.size() - 2].candidate;
+    before.whole.end = std::max(before.whole.end, next.core.begin);
   }
   return merged;
 }
@@ -146,6 +151,7 @@ Synthesized run(const Snapshot& snapshot, Wanted wanted, std::string_view edited
                      .fingerprint = info.motion_facts.fingerprint,
                      .place = chosen.place,
                      .sign_places = std::move(chosen.sign_places),
+                     .continues = chosen.continues,
                      .noise = snapshot.joins(candidate.recording)->noise});
   }
 

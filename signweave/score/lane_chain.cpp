@@ -82,4 +82,14 @@ std::vector<LaneDifference> differences(const LaneChain& lane, const LaneChain& 
   return found;
 }
 
+std::vector<const Lane*> lanes_that_differ(const Score& score) {
+  std::vector<const Lane*> found;
+  for (const Lane& lane : score.lanes) {
+    const std::optional<Channel> parent = parent_of(lane.channel);
+    const LaneChain theirs = chain_of(*lane_of(score, parent.value_or(Channel::body)));
+    if (!differences(chain_of(lane), theirs, parent.has_value()).empty()) found.push_back(&lane);
+  }
+  return found;
+}
+
 }  // namespace signweave

@@ -39,4 +39,7 @@ struct LaneDifference {
 /// must be cut alike; the arms are cut apart from the body.
 std::vector<LaneDifference> differences(const LaneChain& lane, const LaneChain& parent, bool same_cuts);
 
+/// The lanes of a score that show something else than their parent or, without parent, than the body.
+std::vector<const Lane*> lanes_that_differ(const Score& score);
+
 }  // namespace signweave

@@ -30,6 +30,9 @@ struct MotionClip {
   std::uint64_t fingerprint = 0;              ///< of the recording's motion file; 0: unknown
   std::optional<std::size_t> place = {};      ///< first place that it fills, from 0; none: its number among the clips
   std::vector<std::size_t> sign_places = {};  ///< [sign] the place that the sign fills; empty: `place` for all
+  /// Its core follows the previous clip's core in the recording, and the frames between are part of that clip's
+  /// `whole`: `compose` keeps them as the transition unless there is more time.
+  bool continues = false;
   SourceRef::Kind kind = SourceRef::Kind::recording;
   /// Noise of its motion, in the joints of `source`; null: unknown, or retargeted to another skeleton.
   std::shared_ptr<const CaptureNoise> noise = nullptr;

@@ -4,12 +4,118 @@
 
 #include <algorithm>
 
+#include "signweave/score/lane_chain.h"
+
 namespace signweave {
 namespace {
 
 Annotation annotation(TimeSpan span, std::string label, std::string id, std::string parent = {}) {
   return {.id = std::move(id), .label = std::move(label), .span = span, .parent = std::move(parent)};
 }
+
+/// Adds tiers to a document whose annotations are numbered in order.
+class TierWriter {
+ public:
+  explicit TierWriter(const Synthesis& synthesis)
+      : synthesis_(synthesis), clock_{synthesis.motion.rate().frame_time(), Seconds(0)} {}
+
+  /// The signs of one channel, their phases and places. `suffix` is "" or, such as " left", names the channel.
+  void add_signs(Channel channel, const std::string& suffix) {
+    Tier gloss{.id = "Gloss" + suffix, .type = "gloss"};
+    Tier phase{.id = "Phase" + suffix, .type = "phase", .parent = gloss.id};
+    Tier place{.id = "Place" + suffix, .type = "place", .parent = gloss.id};
+    for (const PlacedSign& placed : synthesis_.signs) {
+      if (placed.channel != channel || placed.sign.span.duration() <= Milliseconds(0)) continue;
+      const std::string id = new_id();
+      gloss.annotations.push_back(annotation(placed.sign.span, placed.sign.gloss, id));
+      place.annotations.push_back(
+          annotation(placed.sign.span, fmt::format("{}, clip {}", placed.place, placed.clip), new_id(), id));
+      for (const Phase& one : placed.sign.phases) {
+        phase.annotations.push_back(annotation(one.span, one.label, new_id(), id));
+      }
+    }
+    tiers_.insert(tiers_.end(), {std::move(gloss), std::move(phase), std::move(place)});
+  }
+
+  /// The clips of the whole body and the transitions between them.
+  void add_body() {
+    Tier source{.id = "Source", .type = "source"};
+    Tier junction{.id = "Junction", .type = "junction"};
+    const std::size_t body = body_clips(synthesis_.score);
+    for (std::size_t i = 0; i < body; ++i) {
+      const ShownClip& placed = synthesis_.clips[i];
+      source.annotations.push_back(annotation(span_of(placed.output, clock_), source_of(i, placed.output), new_id()));
+    }
+    for (std::size_t i = 0; i < synthesis_.junctions.size(); ++i) {
+      const Junction& one = synthesis_.junctions[i];
+      const TimeSpan span = span_of(one.frames, clock_);
+      if (span.duration() <= Milliseconds(0)) continue;
+      junction.annotations.push_back(
+          annotation(span,
+                     fmt::format("clip {} -> {}: {} {} ms: {} -> {} (m_i {}, m_j {}, p {})", i, i + 1, one.method,
+                                 span.duration().count(), one.from, one.to, one.cut.retraction_frames,
+                                 one.cut.preparation_frames, one.cut.blend_frames),
+                     new_id()));
+    }
+    tiers_.insert(tiers_.end(), {std::move(source), std::move(junction)});
+  }
+
+  /// All items of a lane.
+  void add_lane(const Lane& lane) {
+    const std::string suffix = suffix_of(lane.channel);
+    const bool has_signs =
+        std::ranges::find(synthesis_.signs, lane.channel, &PlacedSign::channel) != synthesis_.signs.end();
+    if (has_signs) add_signs(lane.channel, suffix);
+    Tier source{.id = "Source" + suffix, .type = "source"};
+    Tier junction{.id = "Junction" + suffix, .type = "junction"};
+    Tier hold{.id = "Hold" + suffix, .type = "hold"};
+    for (const Item& item : lane.items) {
+      const TimeSpan span = span_of(item.at, clock_);
+      if (span.duration() <= Milliseconds(0)) continue;
+      if (const auto* const use = std::get_if<ClipUse>(&item.what)) {
+        source.annotations.push_back(annotation(span, source_of(use->clip, item.at), new_id()));
+      } else if (const auto* const held = std::get_if<Hold>(&item.what)) {
+        hold.annotations.push_back(
+            annotation(span, fmt::format("clip {}: {}", held->clip, synthesis_.clips[held->clip].recording), new_id()));
+      } else {
+        const Transition& made = std::get<Transition>(item.what);
+        junction.annotations.push_back(
+            annotation(span,
+                       fmt::format("clip {} -> {}: {} {} ms (m_i {}, m_j {}, p {})", made.from, made.to,
+                                   synthesis_.score.junctions[made.to - 1].method, span.duration().count(),
+                                   made.cut.retraction_frames, made.cut.preparation_frames, made.cut.blend_frames),
+                       new_id()));
+      }
+    }
+    for (Tier* const tier : {&source, &junction, &hold}) {
+      if (!tier->annotations.empty()) tiers_.push_back(std::move(*tier));
+    }
+  }
+
+  std::vector<Tier> take() { return std::move(tiers_); }
+  int last_id() const noexcept { return next_ - 1; }
+
+ private:
+  static std::string suffix_of(Channel channel) {
+    std::string name(name_of(channel));
+    std::ranges::replace(name, '_', ' ');
+    return ' ' + name;
+  }
+  /// "clip 2, place 1: meteo frames 12..80": what output frames show of a clip.
+  std::string source_of(std::size_t clip, FrameRange output) const {
+    const ShownClip& placed = synthesis_.clips[clip];
+    const double after = static_cast<double>(output.end - placed.core.begin) * placed.step;
+    const double before = static_cast<double>(placed.core.begin - output.begin) * placed.step;
+    return fmt::format("clip {}, place {}: {} frames {:.10g}..{:.10g}", clip, synthesis_.score.clips[clip].place,
+                       placed.recording, placed.first_frame - before, placed.first_frame + after);
+  }
+  std::string new_id() { return fmt::format("a{}", next_++); }
+
+  const Synthesis& synthesis_;
+  FrameClock clock_;
+  std::vector<Tier> tiers_;
+  int next_ = 1;
+};
 
 }  // namespace
 
@@ -29,48 +135,14 @@ AnnotationDocument annotation_of(const Synthesis& synthesis, const std::string& 
                     {"place", Stereotype::symbolic_association, {}},
                     {"source", Stereotype::none, {}},
                     {"junction", Stereotype::none, {}}};
-  Tier gloss{.id = "Gloss", .type = "gloss"};
-  Tier phase{.id = "Phase", .type = "phase", .parent = "Gloss"};
-  Tier place{.id = "Place", .type = "place", .parent = "Gloss"};
-  Tier source{.id = "Source", .type = "source"};
-  Tier junction{.id = "Junction", .type = "junction"};
-
-  const FrameClock clock{synthesis.motion.rate().frame_time(), Seconds(0)};
-  int next = 1;
-  const auto new_id = [&] { return fmt::format("a{}", next++); };
-  for (const PlacedSign& placed : synthesis.signs) {
-    if (placed.sign.span.duration() <= Milliseconds(0)) continue;
-    const std::string id = new_id();
-    gloss.annotations.push_back(annotation(placed.sign.span, placed.sign.gloss, id));
-    place.annotations.push_back(
-        annotation(placed.sign.span, fmt::format("{}, clip {}", placed.place, placed.clip), new_id(), id));
-    for (const Phase& one : placed.sign.phases) {
-      phase.annotations.push_back(annotation(one.span, one.label, new_id(), id));
-    }
-  }
-  for (std::size_t i = 0; i < synthesis.clips.size(); ++i) {
-    const ShownClip& placed = synthesis.clips[i];
-    const double frames = static_cast<double>(placed.output.end - placed.core.begin) * placed.step;
-    const double before = static_cast<double>(placed.core.begin - placed.output.begin) * placed.step;
-    source.annotations.push_back(
-        annotation(span_of(placed.output, clock),
-                   fmt::format("clip {}, place {}: {} frames {:.10g}..{:.10g}", i, synthesis.score.clips[i].place,
-                               placed.recording, placed.first_frame - before, placed.first_frame + frames),
-                   new_id()));
-  }
-  for (std::size_t i = 0; i < synthesis.junctions.size(); ++i) {
-    const Junction& one = synthesis.junctions[i];
-    const TimeSpan span = span_of(one.frames, clock);
-    if (span.duration() <= Milliseconds(0)) continue;
-    junction.annotations.push_back(
-        annotation(span,
-                   fmt::format("clip {} -> {}: {} {} ms: {} -> {} (m_i {}, m_j {}, p {})", i, i + 1, one.method,
-                               span.duration().count(), one.from, one.to, one.cut.retraction_frames,
-                               one.cut.preparation_frames, one.cut.blend_frames),
-                   new_id()));
-  }
-  document.properties.emplace_back("lastUsedAnnotationId", fmt::format("{}", next - 1));
-  document.tiers = {std::move(gloss), std::move(phase), std::move(place), std::move(source), std::move(junction)};
+  TierWriter writer(synthesis);
+  writer.add_signs(Channel::body, {});
+  writer.add_body();
+  const std::vector<const Lane*> lanes = lanes_that_differ(synthesis.score);
+  for (const Lane* const lane : lanes) writer.add_lane(*lane);
+  if (!lanes.empty()) document.types.push_back({"hold", Stereotype::none, {}});
+  document.properties.emplace_back("lastUsedAnnotationId", fmt::format("{}", writer.last_id()));
+  document.tiers = writer.take();
   return document;
 }
 

@@ -12,6 +12,7 @@ SynthesisReport report_of(const Synthesis& synthesis) {
     ReportSign& sign = report.signs.emplace_back(ReportSign{.gloss = placed.sign.gloss,
                                                             .place = placed.place,
                                                             .clip = placed.clip,
+                                                            .channel = placed.channel,
                                                             .recording = synthesis.clips[placed.clip].recording,
                                                             .span = placed.sign.span,
                                                             .recorded = placed.recorded,

@@ -28,6 +28,7 @@ struct ReportSign {
   std::string gloss;
   std::size_t place = 0;
   std::size_t clip = 0;
+  Channel channel = Channel::body;
   std::string recording;
   TimeSpan span{};      ///< in the new motion
   TimeSpan recorded{};  ///< in its recording
@@ -38,6 +39,14 @@ inline AnswerField place_field() {
           .help = "the first place of the utterance that it is of, counted from 0; of a junction the one after it",
           .minimum = 0};
 }
+inline auto channel_value(Channel channel) {
+  return given_if(channel != Channel::body, name_of(channel));
+}
+inline AnswerField channel_field() {
+  return {.name = "channel",
+          .help = "the channel that it is of alone; missing: the whole body",
+          .one_of = {"left", "right", "left_fingers", "right_fingers", "head"}};
+}
 inline AnswerField clip_field(std::string_view name) {
   return {.name = name, .help = "the id of a clip of the score", .minimum = 0};
 }
@@ -47,6 +56,7 @@ void fields(Visit& visit, const ReportSign& sign) {
   visit(AnswerField{.name = "gloss"}, sign.gloss);
   visit(place_field(), sign.place);
   visit(clip_field("clip"), sign.clip);
+  visit(channel_field(), channel_value(sign.channel));
   visit(AnswerField{.name = "recording"}, sign.recording);
   span_fields(visit, sign.span);
   visit(AnswerField{.name = "recorded", .help = "in its recording"}, sign.recorded);
@@ -64,6 +74,7 @@ void fields(Visit& visit, const ReportClip& one) {
   visit.type("ReportClip");
   visit(clip_field("clip"), one.clip);
   visit(place_field(), one.place);
+  visit(channel_field(), channel_value(one.shown.channel));
   visit(AnswerField{.name = "recording"}, one.shown.recording);
   visit(AnswerField{.name = "frames"}, one.shown.output);
   visit(AnswerField{.name = "kept_frames"}, one.shown.core);

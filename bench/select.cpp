@@ -134,7 +134,7 @@ void on_database(double minutes, int rounds) {
   std::mt19937 random(3);
   Utterance utterance;
   for (int i = 0; i < kPlaces; ++i) {
-    utterance.places.push_back({.gloss = {glosses[random() % glosses.size()], 0}, .recording = {}, .span = {}});
+    utterance.places.push_back(place_of({glosses[random() % glosses.size()], 0}));
   }
   std::vector<Choice> choices;
   const auto look_up = [&] {

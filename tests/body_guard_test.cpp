@@ -119,7 +119,7 @@ TEST(BodyGuardOnTheDemo, NoMadeFrameIsDeeperThanFiveMillimetresInsideTheBody) {
   for (int utterance = 0; utterance < 12; ++utterance) {
     Utterance asked;
     for (int i = 0; i < 8; ++i) {
-      asked.places.push_back({.gloss = {glosses[random() % glosses.size()], 0}, .recording = {}, .span = {}});
+      asked.places.push_back(place_of({glosses[random() % glosses.size()], 0}));
     }
     const Synthesized made = synthesize(guarded_corpus(), asked);
     const Motion& motion = made.result.motion;

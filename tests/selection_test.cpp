@@ -51,7 +51,7 @@ TEST(SelectionOnTheDemo, RecordedNeighboursStayTogether) {
     if (rests(i) || rests(i + 1)) continue;
     Utterance utterance;
     for (std::size_t k = i; k < i + 3; ++k) {
-      utterance.places.push_back({.gloss = {signs[k].gloss, 0}, .recording = {}, .span = {}});
+      utterance.places.push_back(place_of({signs[k].gloss, 0}));
     }
     std::vector<Choice> choices = choices_of(snapshot, to_string(utterance));
     const Selection selection = select(snapshot, choices);

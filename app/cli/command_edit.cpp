@@ -20,13 +20,19 @@ Run edit(CLI::App& verb) {
     if (next == "transition") add_outputs(verb, options->delivery.outputs);
   });
   verb.get_option("--replace")->excludes(verb.get_option("--swap"));
+  for (const char* const other : {"--replace", "--swap"}) {
+    verb.get_option("--replace-hand")->excludes(verb.get_option(other));
+  }
   add_reports(verb, options->delivery);
   return [options](Io& io) {
     const calls::EditCall& call = options->call;
     // Errors in the arguments are reported before anything is opened.
     for (const std::string& text : call.replace) parse_replacement(text);
     if (!call.swap.empty()) parse_swap(call.swap);
-    if (call.replace.empty() && call.swap.empty()) throw CLI::RequiredError("--replace or --swap");
+    for (const std::string& text : call.replace_hand) parse_hand_replacement(text);
+    if (call.replace.empty() && call.swap.empty() && call.replace_hand.empty()) {
+      throw CLI::RequiredError("--replace, --swap or --replace-hand");
+    }
     const Database database(options->folder, kv::Access::read_only);
     report_damage(database, io);
     check_signing_space(call.how.signing_space, options->delivery.outputs);

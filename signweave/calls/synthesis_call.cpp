@@ -79,11 +79,15 @@ Synthesized run(const Database& database, const EditCall& call, std::int64_t mos
   Edit edit;
   for (const std::string& text : call.replace) edit.replacements.push_back(parse_replacement(text));
   if (!call.swap.empty()) edit.swap = parse_swap(call.swap);
-  if (edit.replacements.empty() && !edit.swap) {
-    throw Error(ErrorCode::bad_input, "what is to be changed? give replace or swap");
+  for (const std::string& text : call.replace_hand) edit.hands.push_back(parse_hand_replacement(text));
+  if (edit.replacements.empty() && !edit.swap && edit.hands.empty()) {
+    throw Error(ErrorCode::bad_input, "what is to be changed? give replace, swap or replace_hand");
   }
   if (!edit.replacements.empty() && edit.swap) {
     throw Error(ErrorCode::bad_input, "replace and swap exclude each other: make two edits");
+  }
+  if (!edit.hands.empty() && (!edit.replacements.empty() || edit.swap)) {
+    throw Error(ErrorCode::bad_input, "replace_hand excludes replace and swap: make two edits");
   }
   SynthesisOptions options = options_of(call.how);
   options.most_frames = most_frames;

@@ -126,6 +126,7 @@ struct EditCall {
   std::string recording;
   std::vector<std::string> replace;
   std::string swap;
+  std::vector<std::string> replace_hand;
   SynthesisChoices how;
 };
 
@@ -139,6 +140,12 @@ void fields(Visit& visit, EditCall& call) {
               .several_words = true},
         call.replace);
   visit(Field{.name = "swap", .help = "FROM..TO,FROM..TO: two runs of signs change places"}, call.swap);
+  visit(
+      Field{.name = "replace_hand",
+            .help = "left:GLOSS[#N]=GLOSS[#M] or right:...: what that hand alone signs, by its share of another sign; "
+                    "may be given several times",
+            .several_words = true},
+      call.replace_hand);
   fields(visit, call.how);
 }
 

@@ -104,7 +104,7 @@ class Composer {
     const auto [at, is_new] = usual_.try_emplace({from, to, held});
     if (!is_new) return at->second;
     const bool of_body = to == from + 1 && to < body_;
-    if (of_body && !held && clips_[to].continues) {
+    if (to == from + 1 && to != body_ && !held && clips_[to].continues) {
       const std::int64_t recorded = clips_[to].core.begin - clips_[from].core.end;
       const std::int64_t length = std::min(
           placed_[from].retraction, std::int64_t{std::llround(static_cast<double>(recorded) / placed_[from].step)});
@@ -276,7 +276,8 @@ class Composer {
 
 Synthesis compose(const std::vector<MotionClip>& clips, const ChannelParts& parts, const ConcatenateOptions& options,
                   Synthesis used) {
-  if (parts.empty()) return concatenate(clips, options, std::move(used));
+  const bool continues = std::ranges::any_of(clips, &MotionClip::continues);
+  if (parts.empty() && !continues) return concatenate(clips, options, std::move(used));
   std::vector<MotionClip> all = clips;
   for (const ChannelClip& part : parts.clips) all.push_back(part.clip);
   const JointSetup setup(all, options);

@@ -12,7 +12,8 @@ namespace signweave {
 /// have its transitions and that keep the given ties (see schedule.h); where a lane has time left, its last pose is
 /// held until its transition begins, or the transition is up to half as long again.
 ///
-/// Without parts the result is that of `concatenate`. Throws as it does, and Error{bad_input} if parts contradict each
+/// Clips that continue the one before them (MotionClip::continues) keep the recorded transition. Without parts and such
+/// clips, the result is that of `concatenate`. Throws as it does, and Error{bad_input} if parts contradict each
 /// other; the message names those that do.
 Synthesis compose(const std::vector<MotionClip>& clips, const ChannelParts& parts, const ConcatenateOptions& options,
                   Synthesis used = {});

@@ -95,6 +95,17 @@ Replacement parse_replacement(std::string_view text) {
   return {parse_gloss_ref(text.substr(0, sign), "replace"), parse_gloss_ref(text.substr(sign + 1), "replace")};
 }
 
+HandReplacement parse_hand_replacement(std::string_view text) {
+  for (const auto& [prefix, side] : {std::pair("left:", Side::left), std::pair("right:", Side::right)}) {
+    const std::string_view begin(prefix);
+    if (text.starts_with(begin)) return {side, parse_replacement(text.substr(begin.size()))};
+  }
+  throw Error(ErrorCode::bad_input,
+              fmt::format("replace-hand '{}': expected left:GLOSS=GLOSS or right:GLOSS=GLOSS, such "
+                          "as left:REGION=VILLE#2",
+                          printable(text)));
+}
+
 std::pair<SignRun, SignRun> parse_swap(std::string_view text) {
   const std::size_t comma = find_unquoted(text, ",");
   if (comma == text.npos) {

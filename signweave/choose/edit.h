@@ -25,16 +25,25 @@ struct SignRun {
   GlossRef last;
 };
 
+/// "Let this hand say that sign instead of this one."
+struct HandReplacement {
+  Side hand = Side::left;
+  Replacement replacement;  ///< token numbers of `from` count over the signs of that hand
+};
+
 /// An edit of a recording: replacements, or two runs that are swapped (the paper's two scenarios, section 5.1). The
 /// motion before the first sign and after the last is kept if that sign is kept or replaced, and dropped if a swap
 /// moves it.
 struct Edit {
   std::vector<Replacement> replacements;
   std::optional<std::pair<SignRun, SignRun>> swap;
+  std::vector<HandReplacement> hands;  ///< not together with the others
 };
 
 /// Parses `A#1=B#2`, with quotes if a gloss contains '=' or ends like a token. Throws Error{bad_input}.
 Replacement parse_replacement(std::string_view text);
+/// Parses `left:A#1=B#2` or `right:…`. Throws Error{bad_input}.
+HandReplacement parse_hand_replacement(std::string_view text);
 /// Parses `FROM..TO,FROM..TO`; a run of one sign may omit `..TO`.
 std::pair<SignRun, SignRun> parse_swap(std::string_view text);
 

@@ -78,7 +78,12 @@ std::vector<PartChoice> part_choices(const Contents& contents, const Utterance& 
                      .sync = {}});
       for (const PartSign& sign : part.signs) {
         choice.signs.push_back(candidates_for(contents, sign.sign));
-        choice.sync.push_back(sign.sync);
+        std::vector<ClipSync>& sync = choice.sync.emplace_back();
+        for (const SyncMark& mark : sign.sync) {
+          const bool at_end = mark.anchor == SyncMark::Anchor::end;
+          sync.push_back(
+              {.anchor = at_end ? ClipSync::Anchor::end : ClipSync::Anchor::begin, .with = i, .offset = mark.offset});
+        }
       }
       for (const PartChoice& before : choices) {
         if (&before == &choice || before.place != i || before.channel != choice.channel) continue;
@@ -144,22 +149,19 @@ ChannelClip channel_clip(const ChosenPart& chosen, std::span<const std::size_t> 
                    .last = clip_of[part.last],
                    .sync = {},
                    .fill = is_fingers(part.channel) && part.signs.size() == 1 && part.sync.front().empty()};
-  for (const SyncMark& mark : part.sync[chosen.sign]) {
-    clip.sync.push_back(
-        {.anchor = mark.anchor == SyncMark::Anchor::end ? ClipSync::Anchor::end : ClipSync::Anchor::begin,
-         .with = clip.first,
-         .offset = mark.offset});
+  for (ClipSync sync : part.sync[chosen.sign]) {
+    sync.with = clip_of[sync.with];
+    clip.sync.push_back(sync);
   }
   if (clip.sync.empty() && chosen.sign == 0) clip.sync.push_back({.with = clip.first});
   return clip;
 }
 
-std::vector<ChannelHold> channel_holds(const Utterance& utterance, std::span<const std::size_t> clip_of) {
+std::vector<ChannelHold> channel_holds(const Utterance& utterance) {
   std::vector<ChannelHold> holds;
   for (const HandHold& held : utterance.holds) {
     const Side dominant = utterance.places[held.from].dominant.value_or(kUsuallyDominant);
-    holds.push_back(
-        {.channel = channel_of(held.hand, dominant), .from = clip_of[held.from], .until = clip_of[held.until]});
+    holds.push_back({.channel = channel_of(held.hand, dominant), .from = held.from, .until = held.until});
   }
   return holds;
 }

@@ -23,7 +23,8 @@ struct PartChoice {
   std::size_t last = 0;   ///< inclusive
   Channel channel = Channel::left;
   std::vector<std::vector<Candidate>> signs;
-  std::vector<std::vector<SyncMark>> sync;  ///< [sign]
+  std::vector<std::vector<ClipSync>> sync;  ///< [sign]; `with` is a place. Of the first, empty: it begins with the part
+  std::vector<bool> continues = {};         ///< [sign] see MotionClip; empty: none
 };
 /// Throws MissingGlosses for unknown glosses, Error{bad_input} for parts that name the same channel of a place twice.
 std::vector<PartChoice> part_choices(const Contents& contents, const Utterance& utterance);
@@ -47,7 +48,7 @@ std::vector<ChosenPart> choose_parts(const Snapshot& snapshot, std::span<const P
 /// The ties and ranges of a chosen part's clip, without the clip; `clip_of` is the number of the whole-body clip of
 /// each place.
 ChannelClip channel_clip(const ChosenPart& chosen, std::span<const std::size_t> clip_of);
-/// The holds of an utterance.
-std::vector<ChannelHold> channel_holds(const Utterance& utterance, std::span<const std::size_t> clip_of);
+/// The holds of an utterance, between places instead of clips.
+std::vector<ChannelHold> channel_holds(const Utterance& utterance);
 
 }  // namespace signweave

@@ -184,7 +184,8 @@ TEST(ScoreOfClips, ErrorsSayWhereAndWhat) {
   EXPECT_THAT(fault_of("\"method\": \"overlap\"", "\"method\": \"fade\""), HasSubstr("no transition method 'fade'"));
   EXPECT_THAT(fault_of("\"channel\": \"left\"", "\"channel\": \"body\""),
               HasSubstr("lane 'body' is where 'left' belongs"));
-  EXPECT_THAT(fault_of("\"retraction\": ", "\"retraction\": 9"), HasSubstr("lane 'body': the transition from clip 0 to 1 keeps more"));
+  EXPECT_THAT(fault_of("\"retraction\": ", "\"retraction\": 9"),
+              HasSubstr("lane 'body': the transition from clip 0 to 1 keeps more"));
   EXPECT_THAT(fault_of("\"frames\": ", "\"frames\": 1"), HasSubstr("lane 'body' ends at frame"));
   EXPECT_THAT(fault_of("\"frames\": ", "\"frames\": 99999999"), HasSubstr("a score has 1 to 8640000"));
   EXPECT_THAT(fault_of("\"at\": [20, 60]", "\"at\": [20, 9000000000000000000]"),

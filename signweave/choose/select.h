@@ -16,6 +16,7 @@ namespace signweave {
 struct Choice {
   std::vector<Candidate> candidates;  ///< at least one
   Milliseconds pause_before{0};
+  bool continues = false;  ///< its only candidate follows that of the place before in the recording, and stays there
 };
 
 /// The costs of one candidate of a place, given the choices of the neighbouring places.

@@ -9,6 +9,7 @@
 
 #include "signweave/choose/captured_spans.h"
 #include "signweave/choose/compose.h"
+#include "signweave/choose/decompose.h"
 #include "signweave/choose/missing_glosses.h"
 #include "signweave/choose/notices.h"
 #include "signweave/choose/on_skeleton.h"
@@ -32,8 +33,9 @@ struct ChosenClip {
 /// What is signed: places, and what parts of the signer sign besides.
 struct Wanted {
   std::vector<Choice> choices;  ///< of the places
-  std::vector<PartChoice> parts;
-  const Utterance* utterance = nullptr;  ///< null: an edit, without parts
+  std::vector<PartChoice> parts = {};
+  std::vector<ChannelHold> holds = {};  ///< between places
+  std::set<std::size_t> borders = {};   ///< places at which parts begin or end
 };
 
 /// If the junction between neighbours is named, its transition is generated, because options were given for it. At
@@ -45,7 +47,7 @@ std::vector<ChosenClip> merge_neighbours(const Contents& contents, const std::ve
   for (std::size_t place = 0; place < choices.size(); ++place) {
     const Candidate& next = choices[place].candidates[selection.chosen[place]];
     const bool goes_on = !merged.empty() && choices[place].pause_before == Milliseconds(0) &&
-                         are_neighbours(contents, merged.back().candidate, next);
+                         (choices[place].continues || are_neighbours(contents, merged.back().candidate, next));
     if (goes_on && !named.contains(place) && !borders.contains(place)) {
       extend_with(merged.back().candidate, next);
       merged.back().sign_places.insert(merged.back().sign_places.end(), next.signs.size(), place);
@@ -93,7 +95,7 @@ struct ComposedParts {
 ComposedParts composed_parts(const Snapshot& snapshot, const Wanted& wanted, const Synthesized& made,
                              const std::vector<ChosenClip>& clips) {
   ComposedParts composed;
-  if (wanted.utterance == nullptr) return composed;
+  if (wanted.parts.empty() && wanted.holds.empty()) return composed;
   std::vector<const Candidate*> chosen;
   for (std::size_t place = 0; place < made.choices.size(); ++place) {
     chosen.push_back(&made.choices[place].candidates[made.selection.chosen[place]]);
@@ -101,7 +103,9 @@ ComposedParts composed_parts(const Snapshot& snapshot, const Wanted& wanted, con
   composed.chosen = choose_parts(snapshot, wanted.parts, chosen, made.choices, {.transition = made.durations.mean});
   const std::vector<std::size_t> clip_of = clips_of_places(clips, made.choices.size());
   for (const ChosenPart& part : composed.chosen) composed.parts.clips.push_back(channel_clip(part, clip_of));
-  composed.parts.holds = channel_holds(*wanted.utterance, clip_of);
+  for (const ChannelHold& held : wanted.holds) {
+    composed.parts.holds.push_back({held.channel, clip_of[held.from], clip_of[held.until]});
+  }
   return composed;
 }
 
@@ -119,12 +123,14 @@ Synthesized run(const Snapshot& snapshot, Wanted wanted, std::string_view edited
     made.durations = durations_of(contents, *snapshot.learned(), options.duration);
   made.selection = select(snapshot, made.choices, {.transition = made.durations.mean, .explain = options.explain});
   std::vector<Notice> notices;
-  std::vector<ChosenClip> chosen_clips = merge_neighbours(
-      contents, made.choices, made.selection, options.junctions,
-      wanted.utterance == nullptr ? std::set<std::size_t>() : clip_borders(*wanted.utterance), notices);
+  std::vector<ChosenClip> chosen_clips =
+      merge_neighbours(contents, made.choices, made.selection, options.junctions, wanted.borders, notices);
   ComposedParts composed = composed_parts(snapshot, wanted, made, chosen_clips);
   const std::size_t body = chosen_clips.size();
-  for (const ChosenPart& part : composed.chosen) chosen_clips.push_back({part.candidate, part.part->place});
+  for (const ChosenPart& part : composed.chosen) {
+    ChosenClip& added = chosen_clips.emplace_back(ChosenClip{.candidate = part.candidate, .place = part.part->place});
+    added.continues = !part.part->continues.empty() && part.part->continues[part.sign];
+  }
   const auto selected = Clock::now();
 
   Seconds reading{0};
@@ -204,6 +210,13 @@ Synthesized run(const Snapshot& snapshot, Wanted wanted, std::string_view edited
   return made;
 }
 
+/// A recording in channels: every place stays a clip of its own.
+Wanted wanted_of(Decomposed decomposed) {
+  Wanted wanted{.choices = std::move(decomposed.choices), .parts = std::move(decomposed.parts)};
+  for (std::size_t place = 0; place < wanted.choices.size(); ++place) wanted.borders.insert(place);
+  return wanted;
+}
+
 }  // namespace
 
 Synthesized synthesize(const Database& database, const Score& score, Synthesis used) {
@@ -242,7 +255,10 @@ Synthesized synthesize(const Database& database, const Utterance& utterance, con
   const auto start = Clock::now();
   const Snapshot snapshot = database.snapshot();
   require_glosses(utterance, snapshot.contents().segments);
-  Wanted wanted{.choices = {}, .parts = part_choices(snapshot.contents(), utterance), .utterance = &utterance};
+  Wanted wanted{.choices = {},
+                .parts = part_choices(snapshot.contents(), utterance),
+                .holds = channel_holds(utterance),
+                .borders = clip_borders(utterance)};
   for (const Place& place : utterance.places) {
     wanted.choices.push_back({candidates_for(snapshot.contents(), place), place.pause_before});
   }
@@ -253,8 +269,21 @@ Synthesized synthesize(const Database& database, std::string_view recording, con
                        const SynthesisOptions& options, Synthesis used) {
   const auto start = Clock::now();
   const Snapshot snapshot = database.snapshot();
-  Wanted wanted{.choices = choices_for(snapshot.contents(), recording, edit), .parts = {}, .utterance = nullptr};
+  Wanted wanted;
+  if (edit.hands.empty()) {
+    wanted.choices = choices_for(snapshot.contents(), recording, edit);
+  } else {
+    Decomposed decomposed = decompose(snapshot.contents(), recording);
+    replace_in_hands(snapshot.contents(), recording, edit.hands, decomposed);
+    wanted = wanted_of(std::move(decomposed));
+  }
   return run(snapshot, std::move(wanted), recording, options, start, std::move(used));
+}
+
+Synthesized recompose(const Database& database, std::string_view recording) {
+  const auto start = Clock::now();
+  const Snapshot snapshot = database.snapshot();
+  return run(snapshot, wanted_of(decompose(snapshot.contents(), recording)), recording, {}, start, {});
 }
 
 }  // namespace signweave

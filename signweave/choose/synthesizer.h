@@ -67,4 +67,8 @@ Synthesized synthesize(const Database& database, const Score& score, Synthesis u
 Synthesized synthesize(const Database& database, std::string_view recording, const Edit& edit,
                        const SynthesisOptions& options = {}, Synthesis used = {});
 
+/// Takes a recording apart into the signs of its tiers, those of each hand if they have tiers of their own, and
+/// composes them again. Gives the recording's motion, bit for bit.
+Synthesized recompose(const Database& database, std::string_view recording);
+
 }  // namespace signweave

@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "signweave/core/time.h"
@@ -78,6 +79,13 @@ struct Place : SignRef {
   std::optional<Side> dominant;  ///< the hand that signs it as the dominant one; none: the signer's
   friend bool operator==(const Place&, const Place&) = default;
 };
+
+/// A place that is signed with the whole body.
+inline Place place_of(GlossRef gloss) {
+  Place place;
+  place.gloss = std::move(gloss);
+  return place;
+}
 
 /// Time that "," and "." as separate words add to the transition.
 inline constexpr Milliseconds kComma{350};

@@ -1,0 +1,158 @@
+// Recordings taken apart into channels and composed again, edits of single hands, and utterances in channels, on the
+// demo corpus.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "signweave/choose/decompose.h"
+#include "signweave/choose/synthesizer.h"
+#include "signweave/core/error.h"
+#include "signweave/database/database.h"
+#include "signweave/database/test_recording.h"
+#include "signweave/notation/score_json.h"
+#include "signweave/score/lane_chain.h"
+#include "tests/demo_database.h"
+
+namespace signweave::channels {
+namespace {
+
+using testing::HasSubstr;
+using testing_database::TestFolder;
+
+/// An annotation in which the left hand has signs of its own, begun and ended at other times than those of the right.
+AnnotationDocument of_hands(const AnnotationDocument& document, const TierNames& tiers) {
+  AnnotationDocument of_hands;
+  of_hands.types = {{"gloss", Stereotype::none, {}}};
+  Tier right{.id = "GlossR", .type = "gloss"};
+  Tier left{.id = "GlossL", .type = "gloss"};
+  int number = 0;
+  for (const Sign& sign : signs_in(document, tiers).signs) {
+    const std::optional<TimeSpan> stroke = sign.stroke_span();
+    if (!stroke) continue;
+    const auto add = [&](Tier& tier, TimeSpan span, const std::string& gloss) {
+      tier.annotations.push_back({.id = fmt::format("h{}", ++number), .label = gloss, .span = span});
+    };
+    add(right, *stroke, sign.gloss);
+    if (number % 5 == 0) continue;  // the right hand alone
+    add(left, {stroke->begin + Milliseconds(37), stroke->end + Milliseconds(number % 3 == 0 ? 90 : -15)},
+        "L-" + sign.gloss);
+  }
+  of_hands.tiers = {std::move(right), std::move(left)};
+  return of_hands;
+}
+
+/// The demo corpus, and a recording `mains` with tiers of both hands.
+const Database& corpus() {
+  static const TestFolder folder;
+  static const std::unique_ptr<const Database> database = [] {
+    copy_demo_database(folder / "db", 2);
+    Database writer(folder / "db", kv::Access::read_write);
+    demo::SyntheticRecording made = demo::make_recording(demo::corpus_scripts(2).front(), {100, 1}, 1);
+    Recording recording{.name = "mains"};
+    recording.motion = MotionPart{.motion = std::move(made.motion)};
+    AnnotationDocument document = of_hands(made.document, guess_tier_names(made.document));
+    TierNames tiers = guess_tier_names(document);
+    recording.annotation = AnnotationPart{.document = std::move(document), .tiers = std::move(tiers)};
+    recording.clock = {.frame_time = made.timeline.rate.frame_time()};
+    writer.put(recording);
+    return std::make_unique<const Database>(folder / "db", kv::Access::read_only);
+  }();
+  return *database;
+}
+
+Motion recorded(const std::string& name) {
+  const Snapshot snapshot = corpus().snapshot();
+  const std::unique_ptr<MotionSource> source = snapshot.motion(snapshot.contents().at(name));
+  Motion motion(source->skeleton(), source->rate(), source->frame_count());
+  source->read({0, source->frame_count()}, motion.poses({0, source->frame_count()}));
+  std::vector<std::vector<float>> values(source->tracks().size(),
+                                         std::vector<float>(static_cast<std::size_t>(source->frame_count())));
+  source->read_tracks({0, source->frame_count()}, std::vector<std::span<float>>(values.begin(), values.end()));
+  for (std::size_t i = 0; i < values.size(); ++i) motion.add_track({source->tracks()[i], values[i]});
+  return motion;
+}
+
+TEST(ChannelsTest, ARecordingTakenApartAndComposedAgainIsTheRecording) {
+  for (const RecordingInfo& info : corpus().snapshot().shared_contents()->recordings) {
+    const Synthesized made = recompose(corpus(), info.name);
+    EXPECT_TRUE(same_bits(made.result.motion, recorded(info.name))) << info.name;
+    EXPECT_GT(made.result.score.clips.size(), 20u) << info.name;
+    EXPECT_EQ(lanes_that_differ(made.result.score).size(), info.name == "mains" ? 1u : 0u);
+    EXPECT_EQ(score_from_json(json_of(made.result.score), "score.json"), made.result.score);
+  }
+}
+
+TEST(ChannelsTest, AHandSaysAnotherSign) {
+  const Decomposed before = decompose(*corpus().snapshot().shared_contents(), "mains");
+  ASSERT_EQ(before.parts.size(), 1u);
+  const std::string gloss = before.parts[0].signs[3].front().gloss();
+  Edit edit;
+  edit.hands.push_back(parse_hand_replacement("left:" + gloss + "#1=MATIN#1"));
+  const Synthesized made = synthesize(corpus(), "mains", edit);
+  const Score& score = made.result.score;
+  const std::vector<const Lane*> lanes = lanes_that_differ(score);
+  ASSERT_EQ(lanes.size(), 1u);
+  EXPECT_EQ(lanes[0]->channel, Channel::left);
+  const auto is_new = [](const PlacedSign& sign) {
+    return sign.channel == Channel::left && sign.sign.gloss == "MATIN";
+  };
+  EXPECT_EQ(std::ranges::count_if(made.result.signs, is_new), 1);
+  const auto is_old = [&](const PlacedSign& sign) { return sign.sign.gloss == gloss; };
+  EXPECT_EQ(std::ranges::count_if(made.result.signs, is_old),
+            std::ranges::count_if(recompose(corpus(), "mains").result.signs, is_old) - 1);
+}
+
+TEST(ChannelsTest, AHandWithoutATierTakesItsShareOfASign) {
+  Edit edit;
+  edit.hands.push_back(parse_hand_replacement("right:BRETAGNE=VANNES"));
+  const Synthesized made = synthesize(corpus(), "meteo", edit);
+  const std::vector<const Lane*> lanes = lanes_that_differ(made.result.score);
+  ASSERT_EQ(lanes.size(), 1u);
+  EXPECT_EQ(lanes[0]->channel, Channel::right);
+}
+
+TEST(ChannelsTest, ErrorsOfEditsOfAHandAreOneLine) {
+  const auto fault = [](const std::string& text) {
+    try {
+      Edit edit;
+      edit.hands.push_back(parse_hand_replacement(text));
+      synthesize(corpus(), "mains", edit);
+    } catch (const Error& error) {
+      return std::string(error.what());
+    }
+    return std::string("no fault");
+  };
+  EXPECT_THAT(fault("A=B"), HasSubstr("expected left:GLOSS=GLOSS or right:GLOSS=GLOSS"));
+  EXPECT_THAT(fault("left:NOTHING=MATIN"), HasSubstr("no sign 'NOTHING' of the left hand in recording 'mains'"));
+}
+
+PlacePart weak(const std::string& gloss) {
+  PartSign sign;
+  sign.sign.gloss.gloss = gloss;
+  return {.part = BodyPart::weak, .signs = {sign}, .places = 1};
+}
+
+TEST(ChannelsTest, APlaceWhoseWeakHandSignsTheSameIsThatPlace) {
+  Utterance plain{.places = {place_of({"DEMAIN"}), place_of({"MATIN"}), place_of({"PLUIE"})}};
+  Utterance same = plain;
+  same.places[1].parts = {weak("MATIN")};
+  const Synthesized a = synthesize(corpus(), plain);
+  const Synthesized b = synthesize(corpus(), same);
+  EXPECT_TRUE(same_bits(a.result.motion, b.result.motion));
+}
+
+TEST(ChannelsTest, TheWeakHandSignsAnotherGlossAndHolds) {
+  Utterance utterance{
+      .places = {place_of({"DEMAIN"}), place_of({"MATIN"}), place_of({"PLUIE"}), place_of({"SOLEIL-BRILLER"})}};
+  utterance.places[0].parts = {weak("NUAGES")};
+  utterance.holds = {{.hand = BodyPart::weak, .from = 0, .until = 2}};
+  const Synthesized made = synthesize(corpus(), utterance);
+  const Lane& left = *lane_of(made.result.score, Channel::left);
+  const LaneChain chain = chain_of(left);
+  ASSERT_EQ(chain.size(), 2u);
+  EXPECT_EQ(chain[0].clip, 4u);
+  EXPECT_GT(chain[0].held, 0);
+  EXPECT_EQ(chain[1].clip, 3u);
+}
+
+}  // namespace
+}  // namespace signweave::channels

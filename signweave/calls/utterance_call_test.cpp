@@ -10,12 +10,14 @@ TEST(UtteranceCall, PositionsAreInCharactersAndLines) {
   ASSERT_EQ(answer.places.size(), 4U);
   EXPECT_EQ(answer.places[1].begin, 2U);
   EXPECT_EQ(answer.places[1].end, 8U);
-  ASSERT_EQ(answer.faults.size(), 2U);
+  ASSERT_EQ(answer.faults.size(), 3U);
   EXPECT_EQ(answer.faults[0].line, 2U);
   EXPECT_EQ(answer.faults[0].column, 3U);
   EXPECT_EQ(answer.faults[0].begin, 11U);
   EXPECT_EQ(answer.faults[1].line, 2U);
   EXPECT_EQ(answer.faults[1].column, 5U);
+  EXPECT_EQ(answer.faults[2].line, 3U);
+  EXPECT_EQ(answer.faults[2].column, 1U);
   EXPECT_EQ(answer.faults[0].corrected, "手 A{neg}\nÉ \"]\" B#0\n[X");
   EXPECT_FALSE(answer.canonical);
 }

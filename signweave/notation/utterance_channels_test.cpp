@@ -195,10 +195,11 @@ TEST(UtteranceChannels, EachFaultHasItsSpan) {
   EXPECT_THAT(faults_in("{weak hold ..: A} {topic ..: A}"), ElementsAre("bad_option 1 13", "bad_option 19 27"));
   EXPECT_THAT(faults_in("[A | weak: B @begin+x @begin @begin]"), ElementsAre("bad_sync 13 21", "bad_sync 29 35"));
   EXPECT_THAT(faults_in("[@end | weak: @end B]"), ElementsAre("bad_sync 1 5", "bad_sync 14 18"));
+  EXPECT_THAT(faults_in("[A |"), ElementsAre("unknown_part 3 4"));
   EXPECT_THAT(faults_in("[A | weak: B , C]"), ElementsAre("pause_in_part 13 14"));
   EXPECT_THAT(faults_in("[A | weak: hold] B"), ElementsAre("nothing_to_hold 11 15"));
   EXPECT_THAT(faults_in("A{weak hold ..C} B{weak hold ..+1; neg ..}"),
-              ElementsAre("no_such_place 12 15", "no_such_place 29 32"));
+              ElementsAre("no_such_place 12 15", "no_such_place 29 33"));
   EXPECT_THAT(faults_in("A{mouth \"" + std::string(1'001, 'a') + "\"}"), ElementsAre("long_mouthing 8 1011"));
   EXPECT_THAT(faults_in("A{mouth \"x} B"), ElementsAre("open_quote 8 13"));
   EXPECT_THAT(faults_in("A{mouth \" \"} B#0{neg} [C | weak: D#0]"),

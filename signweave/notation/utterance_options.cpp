@@ -201,6 +201,10 @@ bool OptionsReader::interpret_hand(const RawOption& raw) {
   }
   const std::array<std::string_view, 5> reserved = {"dominant", "weak", "right", "left", "fingers"};
   if (std::ranges::none_of(reserved, begins)) return false;
+  if (of_ == OptionsOf::scope) {
+    fault(raw, "a scope has no parts; those of a place stand directly behind its sign: A{weak: B}");
+    return true;
+  }
   fault(raw, fmt::format("'{}' is no option; a part has a colon and signs, as in weak: B, and a hold an end, as in "
                          "weak hold ..C",
                          printable(joined(tokens))));

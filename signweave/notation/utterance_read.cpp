@@ -287,7 +287,7 @@ void UtteranceReader::read_group_part(OpenGroup& group) {
   while (!cursor_.ended() && std::string_view(":|]\"").find(cursor_.here()) == std::string_view::npos) ++cursor_.at;
   std::size_t end = cursor_.at;
   while (end > begin && is_blank(text[end - 1])) --end;
-  const WordSpan at{begin, std::max(end, std::min(begin + 1, text.size()))};
+  const WordSpan at = begin < text.size() ? WordSpan{begin, std::max(end, begin + 1)} : WordSpan{begin - 1, begin};
   const std::string_view label = text.substr(begin, end - begin);
   const auto part = body_part_of(label);
   if (cursor_.here() != ':' || !part) {

@@ -15,7 +15,7 @@ int main(int argc, char** argv) {
   }
   try {
     const Database database(argv[1], kv::Access::read_only);
-    const Utterance utterance = parse_utterance(argv[2]);
+    const Utterance utterance = parse_utterance(argv[2], words_of(database));
 
     // 1. Sign, and keep what was decided: two kilobytes a sign, and no frames.
     const Synthesized made = synthesize(database, utterance);

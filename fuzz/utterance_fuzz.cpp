@@ -1,7 +1,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
-#include <optional>
 #include <string>
 #include <string_view>
 
@@ -13,17 +12,26 @@ using namespace signweave;
 
 namespace {
 
-/// A quoted gloss, in which nothing can be parsed as syntax. nullopt if it cannot be quoted.
-std::optional<std::string> quoted(const GlossRef& gloss) {
-  if (gloss.gloss.find('"') != std::string::npos) return std::nullopt;
-  return '"' + gloss.gloss + '"' + (gloss.token > 0 ? '#' + std::to_string(gloss.token) : "");
+/// A quoted gloss, in which nothing can be parsed as syntax.
+std::string quoted(const GlossRef& gloss) {
+  std::string text = "\"";
+  for (const char c : gloss.gloss) text += c == '"' ? "\"\"" : std::string(1, c);
+  return text + '"' + (gloss.token > 0 ? '#' + std::to_string(gloss.token) : "");
 }
 
-std::optional<std::string> quoted(const SignRun& run) {
-  const auto first = quoted(run.first);
-  const auto last = quoted(run.last);
-  if (!first || !last) return std::nullopt;
-  return *first + ".." + *last;
+std::string quoted(const SignRun& run) {
+  return quoted(run.first) + ".." + quoted(run.last);
+}
+
+/// Every fault is one line about a part of the text, in the order of the text.
+void check_faults(std::string_view text, const UtteranceText& read) {
+  std::size_t before = 0;
+  if (read.spans.size() != read.utterance.places.size()) std::abort();
+  for (const UtteranceFault& fault : read.faults) {
+    if (fault.at.begin < before || fault.at.end <= fault.at.begin || fault.at.end > text.size()) std::abort();
+    if (fault.message.empty() || fault.message.find('\n') != std::string::npos) std::abort();
+    before = fault.at.begin;
+  }
 }
 
 }  // namespace
@@ -32,30 +40,27 @@ std::optional<std::string> quoted(const SignRun& run) {
 /// text. The same bytes are also tried as the two words of an edit.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string_view text(reinterpret_cast<const char*>(data), size);
-  try {
-    const Utterance utterance = parse_utterance(text);
-    if (utterance.places.empty()) std::abort();
-    if (parse_utterance(to_string(utterance)) != utterance) std::abort();
-  } catch (const Error&) {
+  UtteranceWords some;  // a database that knows every other word
+  some.is_gloss = [](std::string_view word) { return word.size() % 2 == 1; };
+  for (const UtteranceWords& words : {UtteranceWords(), some}) {
+    try {
+      check_faults(text, read_utterance(text, words));
+      const Utterance utterance = parse_utterance(text, words);
+      if (utterance.places.empty()) std::abort();
+      if (parse_utterance(to_string(utterance)) != utterance) std::abort();
+    } catch (const Error&) {
+    }
   }
   try {
     const Replacement replacement = parse_replacement(text);
-    const auto from = quoted(replacement.from);
-    const auto to = quoted(replacement.to);
-    if (from && to) {
-      const Replacement again = parse_replacement(*from + '=' + *to);
-      if (again.from != replacement.from || again.to != replacement.to) std::abort();
-    }
+    const Replacement again = parse_replacement(quoted(replacement.from) + '=' + quoted(replacement.to));
+    if (again.from != replacement.from || again.to != replacement.to) std::abort();
   } catch (const Error&) {
   }
   try {
     const auto [first, second] = parse_swap(text);
-    const auto one = quoted(first);
-    const auto other = quoted(second);
-    if (one && other) {
-      const auto again = parse_swap(*one + ',' + *other);
-      if (again.first.first != first.first || again.second.last != second.last) std::abort();
-    }
+    const auto again = parse_swap(quoted(first) + ',' + quoted(second));
+    if (again.first.first != first.first || again.second.last != second.last) std::abort();
   } catch (const Error&) {
   }
   return 0;

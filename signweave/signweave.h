@@ -5,6 +5,7 @@
 /// what it includes.
 
 #include "signweave/choose/edit.h"              // change a recording's signing
+#include "signweave/choose/known_words.h"       // the glosses of a database, for reading utterances
 #include "signweave/choose/open_score.h"        // render a score again
 #include "signweave/choose/synthesizer.h"       // an utterance -> a score and its motion
 #include "signweave/core/atomic_file.h"         // read_file; files that are written atomically

@@ -57,9 +57,8 @@ Run sign(CLI::App& verb) {
     }
     std::optional<Score> score;
     if (!options->from.empty()) score = score_from_json(read_file(options->from, kLargestScore), options->from);
-    // Errors in the arguments are reported before anything is opened.
-    const std::string title = score ? options->from : title_of(options->call);
     const Database database(options->folder, kv::Access::read_only);
+    const std::string title = score ? options->from : title_of(database, options->call);
     report_damage(database, io);
     check_signing_space(options->call.how.signing_space, options->delivery.outputs);
     const calls::SharedCharacter character = character_of(options->call.how.character);

@@ -134,15 +134,11 @@ constexpr Field kFields[] = {
        m.open.player.synthesis.alignment = kAlignments[one_of<3>(n, v, {"auto", "ground", "none"})];
      }},
     {Control::sign, "utterance", true,
-     [](ControlMessage& m, const std::string& n, const nlohmann::json& v) {
-       m.utterance = parse_utterance(text_of(n, v));
-     }},
+     [](ControlMessage& m, const std::string& n, const nlohmann::json& v) { m.utterance_text = text_of(n, v); }},
     {Control::sign, "missing", false, read_missing},
     {Control::append, "missing", false, read_missing},
     {Control::append, "utterance", true,
-     [](ControlMessage& m, const std::string& n, const nlohmann::json& v) {
-       m.utterance = parse_utterance(text_of(n, v));
-     }},
+     [](ControlMessage& m, const std::string& n, const nlohmann::json& v) { m.utterance_text = text_of(n, v); }},
     {Control::seek, "ms", true,
      [](ControlMessage& m, const std::string& n, const nlohmann::json& v) {
        m.at = Milliseconds(std::llround(number_of(n, v, 0, 1e9)));
@@ -191,7 +187,7 @@ void read_fields(ControlMessage& message, const nlohmann::json& object) {
 
 }  // namespace
 
-ControlMessage parse_control(std::string_view text) {
+ControlMessage parse_control(std::string_view text, const UtteranceWords& words) {
   ControlMessage message;
   try {
     const nlohmann::json object = nlohmann::json::parse(text);
@@ -204,6 +200,8 @@ ControlMessage parse_control(std::string_view text) {
     }
     message.control = control_of(object);
     read_fields(message, object);
+    if (message.control == Control::sign || message.control == Control::append)
+      message.utterance = parse_utterance(message.utterance_text, words);
   } catch (const nlohmann::json::exception& error) {
     const std::string_view what = error.what();  // "[json.exception.parse_error.101] parse error at …"
     const std::size_t mark = what.find("] ");

@@ -31,8 +31,9 @@ struct ControlMessage {
   Control control = Control::ping;
   std::string id;  ///< as JSON, to be echoed; empty if not given
   StreamOptions open;
-  Utterance utterance;
-  bool folds = false;  ///< accepts glosses that differ from known ones only in spelling
+  std::string utterance_text;
+  Utterance utterance;  ///< of `utterance_text`
+  bool folds = false;   ///< accepts glosses that differ from known ones only in spelling
   Milliseconds at{0};
   double tempo = 1;
   bool loop = false;
@@ -44,8 +45,8 @@ struct ControlError : Error {
   std::string id;  ///< as JSON; empty if none could be read
 };
 
-/// Reads one message. Throws ControlError, whose text names the field; for an unknown type or field it suggests near
-/// matches.
-ControlMessage parse_control(std::string_view text);
+/// Reads one message, its utterance with the words of a database. Throws ControlError, whose text names the field; for
+/// an unknown type or field it suggests near matches.
+ControlMessage parse_control(std::string_view text, const UtteranceWords& words = {});
 
 }  // namespace signweave::server

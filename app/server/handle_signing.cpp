@@ -6,6 +6,7 @@
 #include "signweave/calls/export_call.h"
 #include "signweave/calls/rig_answer.h"
 #include "signweave/calls/synthesis_call.h"
+#include "signweave/choose/known_words.h"
 #include "signweave/core/text.h"
 #include "signweave/formats/file_format.h"
 #include "signweave/notation/score_json.h"
@@ -155,13 +156,14 @@ ApiResponse sign_utterance(Call& call) {
   const auto [sign, asked] = read_parameters<WithFormat<calls::SignCall>>(call);
   const std::string format = wanted_format(call, asked, synthesis_formats());
   require_sheet(sign.how.signing_space, format);
-  const std::size_t places = parse_utterance(sign.utterance).places.size();
+  const Database& database = call.database().database();
+  const std::size_t places = parse_utterance(sign.utterance, words_of(database)).places.size();
   if (places > call.state.limits.glosses) {
     throw too_large(fmt::format("the utterance has {} places; the limit is {}", places, call.state.limits.glosses));
   }
-  const Database& database = call.database().database();
   calls::report_damage(database, call.listener());
-  return deliver(call, calls::run(database, sign, call.state.limits.frames), sign.how, calls::title_of(sign), format);
+  return deliver(call, calls::run(database, sign, call.state.limits.frames), sign.how, calls::title_of(database, sign),
+                 format);
 }
 
 ApiResponse render_score(Call& call) {

@@ -12,6 +12,7 @@
 
 #include "app/server/frame_sender.h"
 #include "app/server/stream_text.h"
+#include "signweave/choose/known_words.h"
 
 namespace signweave::server {
 namespace {
@@ -163,7 +164,7 @@ class StreamSession final : public Connection, public std::enable_shared_from_th
   void answer(std::string_view text) {
     std::string id;
     try {
-      const ControlMessage message = parse_control(text);
+      const ControlMessage message = parse_control(text, words_of(database_.database()));
       id = message.id;
       if (message.control == Control::open) {
         if (sender_) throw Error(ErrorCode::conflict, "'open' must come first, and only once");

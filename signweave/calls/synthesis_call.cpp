@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <charconv>
 
+#include "signweave/choose/known_words.h"
 #include "signweave/choose/missing_glosses.h"
 #include "signweave/core/text.h"
 
@@ -67,7 +68,7 @@ SynthesisOptions options_of(const SynthesisChoices& choices) {
 Synthesized run(const Database& database, const SignCall& call, std::int64_t most_frames) {
   SynthesisOptions options = options_of(call.how);
   options.most_frames = most_frames;
-  Utterance utterance = parse_utterance(call.utterance);
+  Utterance utterance = parse_utterance(call.utterance, words_of(database));
   std::vector<Notice> folded;
   if (call.missing == "fold") utterance = with_folded_glosses(utterance, *database.segments(), folded);
   Synthesized made = synthesize(database, utterance, options);
@@ -146,8 +147,8 @@ Synthesized run(const Database& database, const Score& score, const ScoreCall& c
   return run_part(database, score, *frames);
 }
 
-std::string title_of(const SignCall& call) {
-  return to_string(parse_utterance(call.utterance));
+std::string title_of(const Database& database, const SignCall& call) {
+  return to_string(parse_utterance(call.utterance, words_of(database)));
 }
 
 std::string title_of(const EditCall& call) {

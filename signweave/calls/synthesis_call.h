@@ -107,7 +107,7 @@ template <class Visit>
 void fields(Visit& visit, SignCall& call) {
   visit(Field{.name = "utterance",
               .help = "glosses separated by blanks; \"LE MANS\" quoted, MATIN#3 one token, \"NAME\"@1200..3400 a piece "
-                      "of a recording, , and . pauses",
+                      "of a recording, , and . pauses, [A | weak: B] two hands, A{mouth \"a\"} and {brows up: A B} the face",
               .words = "UTTERANCE",
               .required = true},
         call.utterance);
@@ -190,7 +190,8 @@ SynthesisOptions options_of(const SynthesisChoices& choices);
 /// utterances and edits throw, and Error{bad_input} for an edit without a change.
 Synthesized run(const Database& database, const SignCall& call, std::int64_t most_frames = kMostFrames);
 Synthesized run(const Database& database, const EditCall& call, std::int64_t most_frames = kMostFrames);
-std::string title_of(const SignCall& call);
+/// Throws Error{bad_input} for an utterance that cannot be read.
+std::string title_of(const Database& database, const SignCall& call);
 std::string title_of(const EditCall& call);
 
 /// The report of a synthesis: signs, clips and junctions, how long each step took and, if requested, the candidates.

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -75,7 +76,7 @@ struct PlacePart {
 /// One item to be signed.
 struct Place : SignRef {
   Milliseconds pause_before{0};  ///< extra time before it
-  std::vector<PlacePart> parts;  ///< those that begin with it, each part once
+  std::vector<PlacePart> parts;  ///< those that begin with it, each part once, in the order of the text
   std::optional<Side> dominant;  ///< the hand that signs it as the dominant one; none: the signer's
   friend bool operator==(const Place&, const Place&) = default;
 };
@@ -118,7 +119,7 @@ struct NonManual {
 /// The requested glosses, in order (the paper's sign string), and what parts of the signer do besides.
 struct Utterance {
   std::vector<Place> places;
-  std::vector<HandHold> holds;
+  std::vector<HandHold> holds;         ///< in the order of their begins
   std::vector<NonManual> non_manuals;  ///< in the order of their begins; an outer one before those inside it
   friend bool operator==(const Utterance&, const Utterance&) = default;
 };
@@ -130,39 +131,79 @@ struct WordSpan {
   friend bool operator==(const WordSpan&, const WordSpan&) = default;
 };
 
-/// A word that asks for nothing that can be signed.
+/// A part of a text that asks for nothing that can be signed.
 struct UtteranceFault {
-  enum class Kind { open_quote, empty_name, bad_suffix, token_zero, piece_order, too_long };
+  enum class Kind : std::uint8_t {
+    open_quote,
+    empty_name,
+    bad_suffix,
+    token_zero,
+    piece_order,
+    too_long,
+    open_bracket,        ///< `[` or `{` is never closed
+    stray_bracket,       ///< a bracket that belongs to nothing, often of a gloss that needs quotes
+    nested_bracket,      ///< `[` inside `[ ]`
+    too_deep,            ///< more than kMostUtteranceDepth brackets inside each other
+    empty_group,         ///< a bracket, a part or a scope without a sign
+    unknown_part,        ///< not one of kBodyParts
+    repeated_part,       ///< a part, a hold or `dominant` is given twice for the same places
+    bad_option,          ///< an option that cannot be read
+    unknown_expression,  ///< UtteranceWords::is_expression does not know it
+    bad_sync,            ///< a word with `@` that is not a sync mark, or does not follow a sign of a part
+    pause_in_part,       ///< `,` or `.` among the signs of a part
+    nothing_to_hold,     ///< a hold at the first place
+    no_such_place,       ///< `..GLOSS` or `..+COUNT` finds no place
+    long_mouthing,       ///< more than kMostMouthingCharacters
+  };
   Kind kind = Kind::open_quote;
   WordSpan at;              ///< of an open quote: to the end of the text
   std::string message;      ///< what is wrong and how to fix it, in one line
-  std::string replacement;  ///< the word without this fault; empty if only the author can know it
+  std::string replacement;  ///< the text of `at` without this fault; empty if only the author can know it
 };
+inline constexpr std::size_t kUtteranceFaultKinds = 20;
 
 /// The maximum number of faults that are reported for one text.
 inline constexpr std::size_t kMostUtteranceFaults = 20;
+/// The maximum number of brackets and scopes inside each other.
+inline constexpr std::size_t kMostUtteranceDepth = 32;
+/// In code points.
+inline constexpr std::size_t kMostMouthingCharacters = 1'000;
+/// Of the offsets of sync marks and non-manuals, either way.
+inline constexpr Milliseconds kMostUtteranceOffset{1'000'000};
 
 /// Returns "open_quote", "empty_name", …
 std::string_view name_of(UtteranceFault::Kind kind) noexcept;
 
+/// The words that a database and its users know. Functions may be empty.
+struct UtteranceWords {
+  /// A word for which it is true is that gloss, whatever brackets, `|`, `@`, … it contains; of several such beginnings
+  /// of a word the longest is. Called only for words with such characters and for `hold`. Empty: false.
+  std::function<bool(std::string_view)> is_gloss;
+  /// Whether an expression exists. Empty: true.
+  std::function<bool(std::string_view)> is_expression;
+};
+
 /// The content of a text that may have faults.
 struct UtteranceText {
-  Utterance utterance;                 ///< the words without a fault; may be empty
-  std::vector<WordSpan> spans;         ///< [place]
+  Utterance utterance;                 ///< what has no fault; may be empty
+  std::vector<WordSpan> spans;         ///< [place] its word, with the options directly behind it
   Milliseconds pause_after{0};         ///< of `,` and `.` after the last sign
   std::vector<UtteranceFault> faults;  ///< in the order of the text, at most kMostUtteranceFaults
 };
 
-/// Reads glosses separated by white space. Only double quotes quote, and everything inside them is literal. `MATIN#3`
-/// is a token, `"ISL Thanks"@1200..3400` a piece of a recording in ms; `,` and `.` as separate words are pauses
-/// (ignored before the first sign). Faulty words are left out and reported.
-UtteranceText read_utterance(std::string_view text);
+/// Reads the notation of utterances (docs/utterance.md): glosses separated by white space. Only double quotes quote,
+/// and everything inside them is literal, `""` a quote. `MATIN#3` is a token, `"ISL Thanks"@1200..3400` a piece of a
+/// recording in ms; `,` and `.` as separate words are pauses (ignored before the first sign). `[A | weak: B]` is what
+/// parts of the signer do meanwhile, `A{mouth "a"}` are options of a place, `{brows up: A B}` is a scope. Faulty words
+/// are left out and reported. The time is linear in the length of the text.
+UtteranceText read_utterance(std::string_view text, const UtteranceWords& words = {});
 
-/// Returns the utterance of a text without faults. Throws Error{bad_input, "utterance:1:COLUMN: …"} for the first
+/// Returns the utterance of a text without faults. Throws Error{bad_input, "utterance:LINE:COLUMN: …"} for the first
 /// fault, the column from 1 in characters (code points), and for an utterance without a sign.
-Utterance parse_utterance(std::string_view text);
+Utterance parse_utterance(std::string_view text, const UtteranceWords& words = {});
 
-/// Returns text that parses to the same utterance.
+/// Returns text that parses to the same utterance, whatever glosses are known: names with brackets are quoted. Requires
+/// names that are not blank, and places, parts and times as this file describes them.
 std::string to_string(const Utterance& utterance);
 std::string to_string(const GlossRef& gloss);
 

@@ -43,8 +43,22 @@ it('throws the first fault, at its place in the text', async () => {
   expect([text.slice(range.begin, range.end), corrected]).toEqual(['"手', '😀 A "手"'])
 })
 
+it('refuses what a project cannot hold', async () => {
+  const place = { gloss: 'A', begin: 0, end: 1 }
+  const code = async (answer: Partial<UtteranceText>) =>
+    readerOf(() => Promise.resolve({ places: [place], faults: [], ...answer }))('A').then(
+      () => 'read',
+      (wrong: unknown) => (wrong as UtteranceFault).row.code as string,
+    )
+  expect(await code({})).toBe('read')
+  expect(await code({ holds: [{ hand: 'weak', from: 0, until: 1 }] })).toBe('text_with_parts')
+  expect(await code({ non_manuals: [{ kind: 'gaze', what: 'left', first: 0, last: 0, begin_ms: 0, end_ms: 0 }] })).toBe('text_with_parts')
+  expect(await code({ places: [{ ...place, dominant: 'left' }] })).toBe('text_with_parts')
+  expect(await code({ places: [{ ...place, parts: [{ part: 'weak', places: 1, signs: [{ gloss: 'B' }] }] }] })).toBe('text_with_parts')
+})
+
 it('quotes names that would be read as something else', () => {
-  const names = ['LE MANS', 'A#3', 'r@1..2', ',', '.', '#BANK', "AUJOURD'HUI", 'A"B', 'É', '#3', '@1..2', 'C#D', 'A=B']
+  const names = ['LE MANS', 'A#3', 'r@1..2', ',', '.', '#BANK', "AUJOURD'HUI", 'A"B', 'É', '#3', '@1..2', 'C#D', 'A=B', '[X]', 'A{b', 'A "B']
   expect(names.map((name) => wordOf(signPlace(name)))).toEqual([
     '"LE MANS"',
     '"A#3"',
@@ -59,9 +73,12 @@ it('quotes names that would be read as something else', () => {
     '@1..2',
     'C#D',
     'A=B',
+    '"[X]"',
+    '"A{b"',
+    '"A ""B"',
   ])
   expect(textOf([signPlace('A', 2, 'comma'), signPlace('B', 0, 'comma'), piecePlace('LE MANS', 1, 20, 'stop')])).toBe('A#2 , B . "LE MANS"@1..20')
-  expect(['A"B', '"A', 'A "B', ' ', ''].map(canBeTyped)).toEqual([true, false, false, false, false])
+  expect(['A"B', '"A', 'A "B', ' ', ''].map(canBeTyped)).toEqual([true, true, true, false, false])
 })
 
 it('preserves the identity and junction of each place when a text is typed again', () => {

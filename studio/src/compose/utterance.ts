@@ -30,12 +30,24 @@ export interface Reading {
 /** Reads the text of an utterance; throws UtteranceFault, or what the call throws. */
 export type ReadText = (text: string, signal?: AbortSignal) => Promise<Reading>
 
+const kWithParts: UtteranceFaultRow = {
+  // The code of a message of the studio: no server has it.
+  code: 'text_with_parts' as UtteranceFaultRow['code'],
+  message: 'only places of the whole body can be composed here',
+  line: 1,
+  column: 1,
+  begin: 0,
+  end: 0,
+}
+
 /** Reads texts by the server's grammar, which is the only one. */
 export function readerOf(ask: (text: string, signal?: AbortSignal) => Promise<UtteranceText>): ReadText {
   return async (text, signal) => {
     if (text.trim() === '') return { places: [], pause: 'none' }
-    const { places, pause, faults } = await ask(text, signal)
+    const { places, pause, faults, holds, non_manuals } = await ask(text, signal)
     if (faults.length > 0) throw new UtteranceFault(text, faults[0])
+    // A project has no place for these, and would sign the text without them.
+    if (holds ?? non_manuals ?? places.find(({ parts, dominant }) => parts ?? dominant)) throw new UtteranceFault(text, { ...kWithParts, end: [...text].length })
     return { places: places.map(placeOf), pause: pause ?? 'none' }
   }
 }
@@ -48,13 +60,13 @@ function placeOf({ gloss, token, recording, from_ms, to_ms, pause }: UtterancePl
 
 /** A name as it must be typed: quoted if the server would otherwise read something else. */
 export function quoted(name: string): string {
-  const bare = name !== '' && !/^[,.]$|^"|[ \t-\r]|.#\d+$|.@\d+\.\.\d+$/s.test(name)
-  return bare ? name : `"${name}"`
+  const bare = name !== '' && !/^[,.]$|^"|[ \t-\r[\]{}]|.#\d+$|.@\d+\.\.\d+$/s.test(name)
+  return bare ? name : `"${name.replaceAll('"', '""')}"`
 }
 
-/** Whether a name can be typed at all: a name that contains a quote and requires quotes cannot. */
+/** Whether a name can be typed at all: one of blanks cannot. */
 export function canBeTyped(name: string): boolean {
-  return name.trim() !== '' && (quoted(name) === name || !name.includes('"'))
+  return name.trim() !== ''
 }
 
 /** A place as it is typed, without the pause before it. */

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace signweave {
 namespace {
@@ -138,6 +139,31 @@ BodyShell shell_of(const SignerBody& body, const RigMap& rig, const SignerSpace&
   const float head = kHeadRadius * height;
   shell.head = Capsule{top - head * up + forward, top - (height - head) * up + forward, head};
   return shell;
+}
+
+Approach approach(const HandShell& hand, const Capsule& other) noexcept {
+  const float apart = clearance({hand.middle, hand.middle, hand.reach}, other);
+  if (apart > 0) return {.clearance = apart};
+  Approach nearest{.clearance = std::numeric_limits<float>::max()};
+  for (const Capsule& bar : hand.all()) {
+    const Approach here = approach(bar, other);
+    if (here.clearance < nearest.clearance) nearest = here;
+  }
+  return nearest;
+}
+
+Approach approach(const HandShell& a, const HandShell& b) noexcept {
+  const float apart = (a.middle - b.middle).norm() - a.reach - b.reach;
+  if (apart > 0) return {.clearance = apart};
+  Approach nearest{.clearance = std::numeric_limits<float>::max()};
+  for (const Capsule& own : a.all()) {
+    if (clearance(own, {b.middle, b.middle, b.reach}) >= nearest.clearance) continue;
+    for (const Capsule& other : b.all()) {
+      const Approach here = approach(own, other);
+      if (here.clearance < nearest.clearance) nearest = here;
+    }
+  }
+  return nearest;
 }
 
 bool touches(const HandShell& hand, const Capsule& other, const SignerBody& body) noexcept {

@@ -61,6 +61,11 @@ struct BodyShell {
 };
 BodyShell shell_of(const SignerBody& body, const RigMap& rig, const SignerSpace& space, const ModelPose& pose) noexcept;
 
+/// The approach of the hand's nearest capsule to the other shape, as seen from the first argument. If a sphere around
+/// the hand is clear of the other shape, `clearance` is only a lower bound and `away` is zero.
+Approach approach(const HandShell& hand, const Capsule& other) noexcept;
+Approach approach(const HandShell& a, const HandShell& b) noexcept;
+
 /// Returns whether any capsule of the hand is within kContactGap of the other shape.
 bool touches(const HandShell& hand, const Capsule& other, const SignerBody& body) noexcept;
 bool touches(const HandShell& a, const HandShell& b, const SignerBody& body) noexcept;

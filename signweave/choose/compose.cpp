@@ -272,6 +272,29 @@ class Composer {
   std::map<std::tuple<std::size_t, std::size_t, std::int64_t>, JunctionCuts> cuts_;
 };
 
+/// Lets the hands of the parts' clips keep the places that they had in their recordings.
+void place_hands(Score& score, const std::vector<MotionClip>& clips, std::size_t body,
+                 const JunctionSettings& settings) {
+  Renderer renderer(plan_of(score, clips), settings);
+  for (const FoundPlace& found : renderer.find_places(static_cast<ClipId>(body))) {
+    const PlaceCorrection& correction = found.correction;
+    if (correction.why_not) {
+      throw Error(ErrorCode::bad_input,
+                  fmt::format("{}; take another token of it, or let the whole body sign it", *correction.why_not));
+    }
+    if (correction.none) continue;
+    for (Item& item : score.lanes[static_cast<std::size_t>(found.channel)].items) {
+      auto* const use = std::get_if<ClipUse>(&item.what);
+      if (use == nullptr || use->clip != found.clip) continue;
+      use->place = HandPlace{.anchor = correction.anchor,
+                             .kept_in = correction.kept_in,
+                             .out = correction.out,
+                             .moved_mm = correction.size_mm,
+                             .turned_degrees = correction.size_degrees};
+    }
+  }
+}
+
 }  // namespace
 
 Synthesis compose(const std::vector<MotionClip>& clips, const ChannelParts& parts, const ConcatenateOptions& options,
@@ -283,6 +306,7 @@ Synthesis compose(const std::vector<MotionClip>& clips, const ChannelParts& part
   const JointSetup setup(all, options);
   Composer composer(std::move(all), clips.size(), parts, setup.settings, options);
   Score score = composer.score(source_of(clips.at(options.reference)));
+  place_hands(score, composer.clips(), clips.size(), setup.settings);
   check(score, "score");
   Synthesis out;
   out.motion = std::move(used.motion);

@@ -114,6 +114,23 @@ void fields(Visit& visit, const Transition& transition) {
 }
 
 template <class Visit>
+void fields(Visit& visit, const HandPlace& place) {
+  visit.type("ScoreHandPlace");
+  visit(AnswerField{.name = "anchor",
+                    .help = "what the hand touched in its recording",
+                    .one_of = {"signer space", "trunk", "head", "other hand"}},
+        name_of(place.anchor));
+  visit(AnswerField{.name = "kept_in",
+                    .help = "the space in which it keeps its place",
+                    .one_of = {"signer space", "trunk", "head"}},
+        name_of(place.kept_in));
+  visit(AnswerField{.name = "out", .help = "moved out of the body by this, in metres"},
+        std::array<float, 3>{place.out.x(), place.out.y(), place.out.z()});
+  visit(AnswerField{.name = "moved_mm", .help = "from where the copied arm would have the palm"}, place.moved_mm);
+  visit(AnswerField{.name = "turned_degrees"}, place.turned_degrees);
+}
+
+template <class Visit>
 void fields(Visit& visit, const Item& item) {
   const auto* const use = std::get_if<ClipUse>(&item.what);
   const auto* const made = std::get_if<Transition>(&item.what);
@@ -122,6 +139,8 @@ void fields(Visit& visit, const Item& item) {
   visit(AnswerField{.name = "at", .help = "output frames"}, pair_of(item.at));
   visit(AnswerField{.name = "clip", .help = "or a transition, or a hold", .minimum = 0},
         given_if(use != nullptr, use == nullptr ? ClipId{0} : use->clip));
+  visit(AnswerField{.name = "hand", .help = "the corrected place of the clip's hand"},
+        given_if(use != nullptr && use->place, use != nullptr ? use->place.value_or(HandPlace()) : HandPlace()));
   visit(AnswerField{.name = "transition"}, given_if(made != nullptr, made == nullptr ? Transition() : *made));
   visit(AnswerField{.name = "hold",
                     .help = "the clip whose last pose is held; at the begin of a lane, whose first pose is",

@@ -148,17 +148,30 @@ Sign sign_from(const Value& value) {
   return sign;
 }
 
+void fill_numbers(const Value& from, auto& numbers) {
+  if (from.size() != static_cast<std::size_t>(numbers.size())) {
+    from.fail(fmt::format("a list of {} numbers", numbers.size()));
+  }
+  for (Eigen::Index i = 0; i < numbers.size(); ++i) {
+    numbers[i] = static_cast<float>(from.at(static_cast<std::size_t>(i)).number());
+  }
+}
+
 GroundTransform standing_from(const Value& value) {
   GroundTransform standing;
-  const auto fill = [](const Value& from, auto& numbers) {
-    if (from.size() != static_cast<std::size_t>(numbers.size()))
-      from.fail(fmt::format("a list of {} numbers", numbers.size()));
-    for (Eigen::Index i = 0; i < numbers.size(); ++i)
-      numbers[i] = static_cast<float>(from.at(static_cast<std::size_t>(i)).number());
-  };
-  fill(value["turn"], standing.turn.coeffs());
-  fill(value["shift"], standing.shift);
+  fill_numbers(value["turn"], standing.turn.coeffs());
+  fill_numbers(value["shift"], standing.shift);
   return standing;
+}
+
+HandPlace hand_place_from(const Value& value) {
+  HandPlace place{.anchor = value["anchor"].one_of(kAnchors),
+                  .kept_in = value["kept_in"].one_of(kAnchors),
+                  .out = {},
+                  .moved_mm = static_cast<float>(value["moved_mm"].number()),
+                  .turned_degrees = static_cast<float>(value["turned_degrees"].number())};
+  fill_numbers(value["out"], place.out);
+  return place;
 }
 
 Clip clip_from(const Value& value) {
@@ -185,7 +198,9 @@ Clip clip_from(const Value& value) {
 Item item_from(const Value& value) {
   Item item{.what = {}, .at = value["at"].frames()};
   if (value.has("clip")) {
-    item.what = ClipUse{value["clip"].count<ClipId>()};
+    ClipUse use{.clip = value["clip"].count<ClipId>()};
+    if (value.has("hand")) use.place = hand_place_from(value["hand"]);
+    item.what = use;
     return item;
   }
   if (value.has("hold")) {

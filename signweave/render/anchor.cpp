@@ -8,8 +8,6 @@
 namespace signweave {
 namespace {
 
-constexpr std::array<std::string_view, 4> kAnchorNames = {"signer space", "trunk", "head", "other hand"};
-
 std::size_t slot_of(JointIndex joint) {
   return static_cast<std::size_t>(joint);
 }
@@ -27,10 +25,6 @@ RigidMotion motion_of(JointIndex joint, const ModelPose& source, const ModelPose
 }
 
 }  // namespace
-
-std::string_view name_of(Anchor anchor) noexcept {
-  return kAnchorNames[static_cast<std::size_t>(anchor)];
-}
 
 Anchor anchor_of(Contact touched) noexcept {
   if (has(touched, Contact::hands)) return Anchor::other_hand;

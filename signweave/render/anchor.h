@@ -6,18 +6,9 @@
 
 #include "signweave/features/hand_motion.h"
 #include "signweave/motion/kinematics.h"
+#include "signweave/score/hand_place.h"
 
 namespace signweave {
-
-/// What a hand keeps its place to if its arm is put on another trunk.
-enum class Anchor : std::uint8_t {
-  signer_space = 0,  ///< it touches nothing: its place in front of the signer
-  trunk = 1,
-  head = 2,
-  other_hand = 3,
-};
-/// "signer space", "trunk", "head", "other hand".
-std::string_view name_of(Anchor anchor) noexcept;
 
 /// Returns the anchor of a hand that touches all of these over a stroke: the other hand before the head, the head
 /// before the trunk.

@@ -50,6 +50,24 @@ void negate(const std::vector<std::size_t>& joints, const JointSigns& turned, Mu
   }
 }
 
+/// The weight of a clip's correction at an output frame: it rises over the transition before the clip's core, and falls
+/// over the one after it. A corrected clip that follows takes over, so then it does not fall.
+float weight_at(const LaneRun& run, std::size_t clip, std::int64_t frame) noexcept {
+  const std::vector<PlacedClip>& placed = run.plan.placed;
+  const auto smooth = [](std::int64_t at, std::int64_t begin, std::int64_t end) {
+    const float t = static_cast<float>(at - begin + 1) / static_cast<float>(end - begin + 1);
+    return t * t * (3 - 2 * t);
+  };
+  if (frame < placed[clip].core) {
+    const std::int64_t begin = clip == 0 ? run.frames.begin : placed[clip - 1].core_end();
+    if (clip == 0 && !run.from_parent) return 1;
+    return frame < begin ? 0 : smooth(frame, begin, placed[clip].core);
+  }
+  if (frame < placed[clip].core_end() || clip + 1 == placed.size() || run.places[clip + 1]) return 1;
+  const std::int64_t end = placed[clip + 1].core;
+  return frame >= end ? 0 : 1 - smooth(frame, placed[clip].core_end(), end);
+}
+
 }  // namespace
 
 LaneRenderer::LaneRenderer(std::span<const LaneRun> runs, const JunctionSettings& settings) : settings_(settings) {
@@ -63,6 +81,65 @@ LaneRenderer::LaneRenderer(std::span<const LaneRun> runs, const JunctionSettings
 }
 
 LaneRenderer::~LaneRenderer() = default;
+
+/// Corrects the places of a run's hand in frames into which its arm was copied from `shown_`.
+void LaneRenderer::correct(const LaneRun& run, FrameRange shown, OutputWindow window) {
+  for (std::size_t clip = 0; clip < run.places.size(); ++clip) {
+    if (!run.places[clip] || !placer_) continue;
+    weights_.clear();
+    for (std::int64_t frame = shown.begin; frame < shown.end; ++frame) {
+      weights_.push_back(weight_at(run, clip, frame));
+    }
+    const HandPlace& place = *run.places[clip];
+    const PlaceCorrection correction{.side = run.channel == Channel::left ? Side::left : Side::right,
+                                     .anchor = place.anchor,
+                                     .kept_in = place.kept_in,
+                                     .none = false,
+                                     .out = place.out};
+    placer_->apply(correction, view_of(shown_, {0, shown.size()}), weights_, window.poses(shown));
+  }
+}
+
+/// True if another arm shows the same frames at the same time.
+bool LaneRenderer::shows_same(const LaneRun& run, std::size_t clip, Channel other) const noexcept {
+  const PlacedClip& own = run.plan.placed[clip];
+  return std::ranges::any_of(strands_, [&](const Strand& strand) {
+    return strand.run->channel == other && std::ranges::any_of(strand.run->plan.placed, [&](const PlacedClip& theirs) {
+             return theirs.core == own.core && theirs.captured->recording == own.captured->recording &&
+                    theirs.captured->core == own.captured->core;
+           });
+  });
+}
+
+std::vector<FoundPlace> LaneRenderer::find_places(ClipId first, const RenderBody& body) {
+  std::vector<FoundPlace> found;
+  if (!placer_) return found;
+  Motion composed;
+  for (std::size_t i = 0; i < strands_.size(); ++i) {
+    const LaneRun& run = *strands_[i].run;
+    if (run.channel != Channel::left && run.channel != Channel::right) continue;
+    const Side side = run.channel == Channel::left ? Side::left : Side::right;
+    for (std::size_t clip = 0; clip < run.clips.size(); ++clip) {
+      if (run.clips[clip] < first) continue;
+      const PlacedClip& placed = run.plan.placed[clip];
+      const FrameRange core{placed.core, placed.core_end()};
+      body(core, composed);
+      apply({composed, core.begin}, body);
+      strands_[i].renderer->render(core, shown_);
+      const bool both = shows_same(run, clip, side == Side::left ? Channel::right : Channel::left);
+      const MotionClip& captured = *placed.captured;
+      const std::array<bool, 2> arms = {side == Side::left || both, side == Side::right || both};
+      auto corrections =
+          placer_->corrections({.name = captured.signs.empty() ? captured.recording : captured.signs.front().gloss,
+                                .source = view_of(shown_, {0, core.size()}),
+                                .composed = view_of(composed, {0, core.size()}),
+                                .from_source = arms});
+      std::optional<PlaceCorrection>& own = corrections[static_cast<std::size_t>(side)];
+      if (own) found.push_back({run.channel, run.clips[clip], std::move(*own)});
+    }
+  }
+  return found;
+}
 
 LaneRenderer::Joints LaneRenderer::joints_of(Channel channel) const {
   const Skeleton& skeleton = *settings_.skeleton;
@@ -133,7 +210,10 @@ void LaneRenderer::apply(std::size_t strands, OutputWindow window, const RenderB
         const MutablePoseView to = window.pose(frame);
         for (const std::size_t joint : channel.rotations) to.rotations[joint] = from.rotations[joint];
         for (const std::size_t moved : channel.translations) to.translations[moved] = from.translations[moved];
-        negate(channel.rotations, *now.turned, to);
+      }
+      correct(*now.run, shown, window);
+      for (std::int64_t frame = shown.begin; frame < shown.end; ++frame) {
+        negate(channel.rotations, *now.turned, window.pose(frame));
       }
     }
     const FrameRange after = common({now.run->frames.end, window.frames().end}, window.frames());

@@ -7,12 +7,14 @@
 #include <vector>
 
 #include "signweave/render/junction.h"
+#include "signweave/render/place_correction.h"
 #include "signweave/render/plan.h"
 
 /// Inside this module only.
 namespace signweave {
 
 class Renderer;
+struct FoundPlace;
 
 /// Shows runs of single channels over motion that was rendered for the whole body. Each run is rendered as if its clips
 /// were of the whole body, and its channel's joints are taken from there. Used by one thread.
@@ -27,6 +29,10 @@ class LaneRenderer {
   /// Replaces the joints of the runs' channels in output frames that show the whole body so far. The signs of
   /// quaternions are those of continuous lanes, whichever frames are rendered. Throws Error{corrupt}.
   void apply(OutputWindow window, const RenderBody& body);
+
+  /// Finds the places of the hands of clips whose number is at least `first`; their runs must have no places yet. Clips
+  /// whose rig has no body are left out. Throws Error{corrupt}.
+  std::vector<FoundPlace> find_places(ClipId first, const RenderBody& body);
 
  private:
   /// The joints of a channel.
@@ -43,14 +49,18 @@ class LaneRenderer {
   Joints joints_of(Channel channel) const;
   void apply(std::size_t strands, OutputWindow window, const RenderBody& body);
   void find_signs(std::size_t strand, const RenderBody& body);
+  void correct(const LaneRun& run, FrameRange shown, OutputWindow window);
+  bool shows_same(const LaneRun& run, std::size_t clip, Channel other) const noexcept;
   const Joints& joints(std::size_t strand) const noexcept {
     return joints_[static_cast<std::size_t>(strands_[strand].run->channel)];
   }
 
   JunctionSettings settings_;
-  std::vector<Joints> joints_;   ///< [Channel]
-  std::vector<Strand> strands_;  ///< in the order of the runs
-  Motion shown_;                 ///< frames of one strand
+  std::vector<Joints> joints_;       ///< [Channel]
+  std::vector<Strand> strands_;      ///< in the order of the runs
+  Motion shown_;                     ///< frames of one strand
+  std::optional<ArmPlacer> placer_;  ///< none: the rig has no body
+  std::vector<float> weights_;       ///< of a correction, [frame]
 };
 
 }  // namespace signweave

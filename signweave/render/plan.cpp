@@ -160,11 +160,15 @@ class Planner {
                    difference.back_to_parent ? score_.clips[lane[difference.last].clip].at.begin : score_.frames},
         .from_parent = difference.from_parent,
         .back_to_parent = difference.back_to_parent,
-        .plan = {}};
+        .plan = {},
+        .clips = {},
+        .places = {}};
     run.plan.frames = score_.frames;
     for (std::size_t i = difference.first; i <= difference.last; ++i) {
       const bool within = i < difference.last || !difference.back_to_parent;
       place(lane[i].clip, held_of(lane, i, within), run.plan);
+      run.clips.push_back(lane[i].clip);
+      run.places.push_back(lane[i].place);
       if (i == difference.last) break;
       JunctionCuts& cuts = run.plan.cuts.emplace_back(JunctionCuts{.parts = {}, .tracks = lane[i].cut});
       cuts.parts.fill(lane[i].cut);

@@ -33,6 +33,8 @@ struct LaneRun {
   bool from_parent = false;     ///< the parent shows the first clip as well
   bool back_to_parent = false;  ///< the parent shows the last clip as well
   Plan plan;                    ///< its clips, as if they were of the whole body; without runs
+  std::vector<ClipId> clips;    ///< [placed clip]
+  std::vector<std::optional<HandPlace>> places;  ///< [placed clip]
 };
 
 /// The input for a recording of a score: its motion, in the joints of the score's skeleton, and the noise of its

@@ -210,6 +210,11 @@ void Renderer::render_body(FrameRange frames, Motion& out) {
   window_.take_tracks();
 }
 
+std::vector<FoundPlace> Renderer::find_places(ClipId first) {
+  if (!lanes_) return {};
+  return lanes_->find_places(first, [&](FrameRange other, Motion& body) { render_body(other, body); });
+}
+
 void Renderer::render_fetched(Motion& out, std::vector<ScalarTrack> used) {
   join_section({.first = 0, .last = plan_.placed.size() - 1, .frames = {0, plan_.frames}}, {out}, std::move(used));
   if (lanes_) lanes_->apply({out}, [&](FrameRange other, Motion& body) { render_body(other, body); });

@@ -6,12 +6,20 @@
 #include <string>
 #include <vector>
 
+#include "signweave/render/place_correction.h"
 #include "signweave/render/plan.h"
 #include "signweave/score/result.h"
 
 namespace signweave {
 
 class LaneRenderer;
+
+/// The corrected place of the hand of a clip that only the lane of an arm shows.
+struct FoundPlace {
+  Channel channel = Channel::left;
+  ClipId clip = 0;
+  PlaceCorrection correction;
+};
 
 /// Renders a plan: any frames, in any order, any number of times, always with the same bits (for clips retargeted to
 /// another skeleton, up to the signs of quaternions). Used by one thread.
@@ -30,6 +38,8 @@ class Renderer {
   /// frames of every earlier junction are read once. Throws Error{corrupt}, Error{bad_input} for frames outside the
   /// plan.
   void render(FrameRange frames, Motion& out);
+  /// The places of hands, see LaneRenderer::find_places; for the creator of a score.
+  std::vector<FoundPlace> find_places(ClipId first);
   /// Renders all frames, after `fetch` has put the captured ones into `out` and returned `used`.
   void render_fetched(Motion& out, std::vector<ScalarTrack> used);
 

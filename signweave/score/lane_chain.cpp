@@ -9,7 +9,7 @@ LaneChain chain_of(const Lane& lane) {
   std::int64_t held_before = 0;
   for (const Item& item : lane.items) {
     if (const auto* const use = std::get_if<ClipUse>(&item.what)) {
-      chain.push_back({.clip = use->clip, .held_before = held_before, .cut = {}});
+      chain.push_back({.clip = use->clip, .held_before = held_before, .cut = {}, .place = use->place});
       held_before = 0;
     } else if (std::holds_alternative<Hold>(item.what)) {
       (chain.empty() ? held_before : chain.back().held) = item.at.size();
@@ -30,7 +30,7 @@ Lane lane_of(Channel channel, const LaneChain& chain, const std::vector<Clip>& c
   for (std::size_t i = 0; i < chain.size(); ++i) {
     const LaneLink& link = chain[i];
     if (i + 1 == chain.size()) {
-      lane.items.push_back({ClipUse{link.clip}, {begin, frames - link.held}});
+      lane.items.push_back({ClipUse{link.clip, link.place}, {begin, frames - link.held}});
       if (link.held > 0) lane.items.push_back({Hold{link.clip}, {frames - link.held, frames}});
       break;
     }
@@ -39,10 +39,10 @@ Lane lane_of(Channel channel, const LaneChain& chain, const std::vector<Clip>& c
     const std::int64_t end = core_end + link.held + link.cut.kept_after();
     const std::int64_t resumes = clips[next.clip].at.begin - link.cut.kept_before();
     if (link.held > 0) {
-      lane.items.push_back({ClipUse{link.clip}, {begin, core_end}});
+      lane.items.push_back({ClipUse{link.clip, link.place}, {begin, core_end}});
       lane.items.push_back({Hold{link.clip}, {core_end, end}});
     } else {
-      lane.items.push_back({ClipUse{link.clip}, {begin, end}});
+      lane.items.push_back({ClipUse{link.clip, link.place}, {begin, end}});
     }
     lane.items.push_back({Transition{link.clip, next.clip, link.cut}, {end, resumes}});
     begin = resumes;

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "signweave/score/score.h"
@@ -15,7 +16,8 @@ struct LaneLink {
   std::int64_t held_before = 0;  ///< output frames of its first pose before it; only for the first clip of a lane
   /// Output frames for which its last pose is held: after its core, or for the last clip of a lane, at the end.
   std::int64_t held = 0;
-  TransitionCut cut;  ///< of the transition to the next clip; not used for the last
+  TransitionCut cut;                    ///< of the transition to the next clip; not used for the last
+  std::optional<HandPlace> place = {};  ///< see ClipUse
   friend bool operator==(const LaneLink&, const LaneLink&) = default;
 };
 /// The clips that a channel shows, one after another: a lane without the positions that follow from its clips.

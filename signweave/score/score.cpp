@@ -85,6 +85,14 @@ struct Checker {
             made.to, at.size(), cut.gap() + cut.overlap());
   }
 
+  void place(const HandPlace& place, Channel channel, ClipId clip) const {
+    require(channel == Channel::left || channel == Channel::right, "lane '{}': clip {} has a place of a hand",
+            name_of(channel), clip);
+    require(place.kept_in != Anchor::other_hand && place.out.allFinite() && place.out.norm() <= 1,
+            "lane '{}': clip {} has no valid place of the hand: a space of trunk, head or signer, and at most a metre",
+            name_of(channel), clip);
+  }
+
   /// Which items may follow which: a hold stands before the first clip, or after a clip.
   void order(const Lane& lane) const {
     const std::string_view name = name_of(lane.channel);
@@ -97,6 +105,7 @@ struct Checker {
         require(in_transition && use->clip < score.clips.size() && (!announced || *announced == use->clip),
                 "lane '{}': item {} is clip {}; {}", name, i, use->clip,
                 !in_transition ? "a transition must come before it" : "that is not the one that is announced");
+        if (use->place) place(*use->place, lane.channel, use->clip);
         last = use->clip;
         in_transition = false;
         announced.reset();

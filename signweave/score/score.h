@@ -12,6 +12,7 @@
 #include "signweave/annotation/sign.h"
 #include "signweave/core/time.h"
 #include "signweave/motion/blend.h"
+#include "signweave/score/hand_place.h"
 #include "signweave/score/transition.h"
 
 /// A score says what is signed, with which captured frames, and when: a plain value between the request and the motion.
@@ -53,6 +54,7 @@ struct Clip {
 /// A clip in a lane.
 struct ClipUse {
   ClipId clip = 0;
+  std::optional<HandPlace> place = {};  ///< in the lane of an arm: corrects the place of the hand
   friend bool operator==(const ClipUse&, const ClipUse&) = default;
 };
 

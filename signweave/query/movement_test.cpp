@@ -29,7 +29,7 @@ constexpr MovementRow phase(PhaseKind kind, RowId parent, TimeSpan span) {
 
 TEST(Movement, EveryColumnHasItsOwnIndex) {
   std::set<std::size_t> places;
-  for (std::size_t i = 0; i <= static_cast<std::size_t>(HandMeasure::end_distance); ++i) {
+  for (std::size_t i = 0; i <= static_cast<std::size_t>(HandMeasure::hands); ++i) {
     for (const Side side : kSides) places.insert(place_of({static_cast<HandMeasure>(i), side}));
   }
   EXPECT_EQ(places.size(), kMovementColumns);

@@ -22,7 +22,8 @@ void fields(Visit& visit, const LanguageWords& words) {
   visit(AnswerField{.name = "fields"}, words.fields);
   visit(AnswerField{.name = "links"}, words.links);
   visit(AnswerField{.name = "phases"}, words.phases);
-  visit(AnswerField{.name = "hands"}, words.hands);
+  visit(AnswerField{.name = "hands", .help = "values of hand"}, words.hands);
+  visit(AnswerField{.name = "two_handed", .help = "values of hands"}, words.two_handed);
   visit(AnswerField{.name = "functions"}, words.functions);
   visit(AnswerField{.name = "points"}, words.points);
 }

@@ -367,6 +367,7 @@ class Oracle {
       case Field::end:
         return compare(it.span.end, condition);
       case Field::movement:  // no movement is known here
+      case Field::hands:
         return false;
       case Field::like:
         return true;

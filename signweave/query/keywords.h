@@ -12,8 +12,9 @@
 /// Internal to this module: the words of the language. `word_of` gives the spelling of each.
 namespace signweave {
 
-inline constexpr std::array kFields = {Field::gloss,    Field::phase, Field::hand, Field::recording, Field::tier,
-                                       Field::duration, Field::begin, Field::end,  Field::unit,      Field::signer};
+inline constexpr std::array kFields = {Field::gloss,     Field::phase, Field::hand,     Field::hands,
+                                       Field::recording, Field::tier,  Field::duration, Field::begin,
+                                       Field::end,       Field::unit,  Field::signer};
 inline constexpr std::array kLinks = {Link::parent, Link::child,  Link::ancestor, Link::descendant, Link::overlaps,
                                       Link::during, Link::starts, Link::ends,     Link::equals};
 inline constexpr std::array kCompares = {Compare::equal,      Compare::not_equal, Compare::matches,      Compare::less,

@@ -192,6 +192,7 @@ BoundCondition Matcher::bind(const Condition& condition) {
       result.time = std::get<Milliseconds>(condition.value);
       break;
     case Field::movement:
+    case Field::hands:
       result.movement = std::make_unique<MovementCheck>(condition, movement_);
       break;
     case Field::like:
@@ -313,6 +314,7 @@ bool Matcher::holds(BoundCondition& condition, RowId row) {
     case Field::end:
       return compares(table_->end(row), condition.compare, condition.time);
     case Field::movement:
+    case Field::hands:
       return holds_moving(*condition.movement, row);
     case Field::like:
       return true;  // it only orders the answers

@@ -31,7 +31,7 @@ struct BoundCondition {
   bool variable = false;                      ///< = $X or != $X
   unsigned set = 0;                           ///< for phase and hand: bit n for enumerator n
   Milliseconds time{0};
-  std::unique_ptr<MovementCheck> movement;  ///< for movement
+  std::unique_ptr<MovementCheck> movement;  ///< for movement and hands
 };
 
 class Matcher;

@@ -15,6 +15,7 @@ struct SpanMeasures {
   std::array<std::optional<Course>, 2> hands;  ///< [Side]; nullopt: not known
   double frames = 0;                           ///< its weight in a mean
   Distances apart;                             ///< distances of the palms
+  TwoHandedSum both;                           ///< empty unless both hands are known
 };
 
 PointFrame point_of(const HandAt& at) noexcept {
@@ -46,13 +47,16 @@ SpanMeasures from_trace(const HandTrace& trace, FrameRange frames, const Pause& 
       for (const PointFrame& frame : tracks[i]) sums[i].add(frame);
     }
     apart = apart && result.apart.add(tracks[0], tracks[1], trace.shoulder_width);
+    result.both.add(tracks[0], tracks[1]);
   });
   for (std::size_t i = 0; i < 2; ++i) {
     if (tracks[i].empty()) continue;
     const Course measured = sums[i].course(trace.rate, trace.shoulder_width);
     if (is_finite(measured.over)) result.hands[i] = measured;
   }
-  if (!result.hands[0] || !result.hands[1]) result.apart = {};
+  if (result.hands[0] && result.hands[1]) return result;
+  result.apart = {};
+  result.both = {};
   return result;
 }
 
@@ -83,6 +87,7 @@ SpanMeasures from_features(const PhaseFeatures& phase, const SpanMeasures& trace
     over.peak_acceleration = std::max(over.peak_acceleration, traced.hands[side]->over.peak_acceleration);
   }
   if (!result.hands[0] || !result.hands[1]) return result;
+  result.both = traced.both;
   const auto [begin, end] = std::pair(phase.hands_distance_begin, phase.hands_distance_end);
   result.apart = {.least = std::min({traced.apart.least, begin, end}),
                   .most = std::max({traced.apart.most, begin, end}),
@@ -100,9 +105,11 @@ SpanMeasures joined(std::span<const SpanMeasures> spans, float shoulder_width) {
     result.frames += each.frames;
     result.apart.least = std::min(result.apart.least, each.apart.least);
     result.apart.most = std::max(result.apart.most, each.apart.most);
+    result.both += each.both;
   }
   result.apart.end = spans.back().apart.end;
   if (!std::ranges::all_of(spans, [](const SpanMeasures& each) { return each.apart.known(); })) result.apart = {};
+  if (std::ranges::any_of(spans, [](const SpanMeasures& each) { return each.both.empty(); })) result.both = {};
   for (std::size_t side = 0; side < 2; ++side) {
     std::vector<Course> courses;
     std::vector<double> weights;
@@ -132,6 +139,7 @@ void write(const SpanMeasures& measures, const SignerBody& body, std::size_t row
        {HandMeasure::distance, HandMeasure::most_distance, HandMeasure::begin_distance, HandMeasure::end_distance}) {
     put(measure, Side::left, measures.apart[measure]);
   }
+  put(HandMeasure::hands, Side::left, hands_of(measures.both, body));
 }
 
 }  // namespace
@@ -150,6 +158,12 @@ StateAndZone state_of(std::uint32_t number) noexcept {
                     .fingers = static_cast<Facing>(number >> 13U & 7U)},
           .height = static_cast<Height>(number >> 16U & 7U),
           .reach = static_cast<Reach>(number >> 19U & 1U)};
+}
+
+float hands_of(const TwoHandedSum& both, const SignerBody& body) noexcept {
+  if (both.empty()) return kNotKnown;
+  const std::optional<Hands> hands = class_of(both.movement(), body);
+  return hands ? static_cast<float>(bit_of(*hands)) : kNotKnown;
 }
 
 float measure_of(const Course& course, HandMeasure measure, const SignerBody& body) noexcept {
@@ -219,6 +233,7 @@ float measure_of(const Course& course, HandMeasure measure, const SignerBody& bo
     case HandMeasure::most_distance:
     case HandMeasure::begin_distance:
     case HandMeasure::end_distance:
+    case HandMeasure::hands:
       break;
   }
   return kNotKnown;

@@ -16,6 +16,7 @@
 #include "signweave/features/phase_features.h"
 #include "signweave/features/point_sum.h"
 #include "signweave/features/point_track.h"
+#include "signweave/features/two_handed.h"
 #include "signweave/query/extent.h"
 #include "signweave/semantic_db/segment_table.h"
 
@@ -58,7 +59,12 @@ enum class HandMeasure : std::uint8_t {
   most_distance,
   begin_distance,  ///< at the first frame
   end_distance,    ///< at the last frame
+  hands,           ///< a set with one member, the class of the movement: `bit_of(Hands)`
 };
+/// The member of HandMeasure::hands for a class.
+constexpr std::uint32_t bit_of(Hands hands) noexcept {
+  return 1U << static_cast<unsigned>(hands);
+}
 inline constexpr std::size_t kHandMeasures = static_cast<std::size_t>(HandMeasure::distance);
 
 /// One column: a measure of a hand, or one of both hands (then `side` is ignored).
@@ -66,7 +72,7 @@ struct Column {
   HandMeasure measure = HandMeasure::speed;
   Side side = Side::right;
 };
-inline constexpr std::size_t kMovementColumns = 2 * kHandMeasures + 4;
+inline constexpr std::size_t kMovementColumns = 2 * kHandMeasures + 5;
 /// Its index among all columns, below kMovementColumns: first the left hand's, then the right hand's, then those of
 /// both hands.
 constexpr std::size_t place_of(Column column) noexcept {
@@ -169,6 +175,9 @@ class CourseSum {
 /// A measure of a hand, or of a point in its place; `kNotKnown` if the measure is not of a single hand. `body`
 /// determines the zones.
 float measure_of(const Course& course, HandMeasure measure, const SignerBody& body) noexcept;
+
+/// The value of HandMeasure::hands.
+float hands_of(const TwoHandedSum& both, const SignerBody& body) noexcept;
 
 /// Combines several spans (at least one) as if they were one: peaks, sums, and means weighted by `frames`. Displacement
 /// is from the begin of the first to the end of the last.

@@ -57,6 +57,7 @@ HandMeasure measure_at_any(const Condition& condition) noexcept {
 }
 
 HandMeasure measure_for(const Condition& condition) noexcept {
+  if (condition.field == Field::hands) return HandMeasure::hands;
   const MovementTerm& term = condition.movement;
   const bool least = term.component == Component::least;
   switch (term.quantity) {
@@ -99,6 +100,8 @@ HandMeasure measure_for(const Condition& condition) noexcept {
   return HandMeasure::speed;
 }
 
+constexpr std::uint32_t kHandsBits = (1U << kHandsClasses.size()) - 1;
+
 /// The bits of a set that meet a condition.
 std::uint32_t mask_for(const Condition& condition) noexcept {
   const auto of = [&](std::uint32_t bit, std::uint32_t all) {
@@ -108,6 +111,7 @@ std::uint32_t mask_for(const Condition& condition) noexcept {
   if (const Across* across = std::get_if<Across>(&condition.value)) return of(bit_of(*across), kAcrossBits);
   if (const Reach* reach = std::get_if<Reach>(&condition.value)) return of(bit_of(*reach), kReachBits);
   if (const Contact* contact = std::get_if<Contact>(&condition.value)) return static_cast<std::uint32_t>(*contact);
+  if (const Hands* hands = std::get_if<Hands>(&condition.value)) return of(bit_of(*hands), kHandsBits);
   const Facing* facing = std::get_if<Facing>(&condition.value);
   if (facing == nullptr) return 0;
   return condition.movement.component == Component::palm ? of(palm_bit(*facing), kPalmBits)
@@ -166,6 +170,7 @@ MovementCheck::Reading MovementCheck::reading_of(const Condition& condition, Han
     case HandMeasure::zones:
     case HandMeasure::entered:
     case HandMeasure::facings:
+    case HandMeasure::hands:
       return Reading::set;
     default:
       return condition.compare == Compare::not_equal ? Reading::outside : Reading::within;
@@ -183,6 +188,10 @@ MovementCheck::MovementCheck(const Condition& condition, const Movement* movemen
               (amount->unit == Unit::shoulder_widths && !in_shoulder_widths(measure_));
   }
   if (movement_ == nullptr) return;
+  if (measure_ == HandMeasure::hands) {
+    alternatives_.push_back({.point = Point::palm(Side::left), .other = Point::palm(Side::right)});
+    return;
+  }
   const MovementTerm& term = condition.movement;
   const auto each_point = [](const Point& point, const auto& use) {
     if (point.kind != Point::Kind::hand) return use(point, false);
@@ -352,6 +361,7 @@ float MovementCheck::from_frames(const Alternative& alternative, std::uint32_t r
   PointTrack points;
   PointTrack others;
   Distances apart;
+  TwoHandedSum both;
   bool known = true;
   for (const TimeSpan span : spans) {
     const FrameRange frames = measured_frames(span, clock, trace->frames);
@@ -370,12 +380,14 @@ float MovementCheck::from_frames(const Alternative& alternative, std::uint32_t r
           }
           track(*alternative.other, recording, *trace, piece, others);
           known = others.size() == points.size() && apart.add(points, others, trace->shoulder_width);
+          if (known && measure_ == HandMeasure::hands) both.add(points, others);
         });
     if (!known) return kNotKnown;
     if (alternative.other) continue;
     courses.push_back(sum.course(trace->rate, trace->shoulder_width));
     weights.push_back(static_cast<double>(frames.size()));
   }
+  if (measure_ == HandMeasure::hands) return hands_of(both, trace->body);
   if (alternative.other) return apart[measure_];
   const Course all = join(courses, weights, trace->shoulder_width);
   return std::isfinite(all.over.path_length) ? measure_of(all, measure_, trace->body) : kNotKnown;

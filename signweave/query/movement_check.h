@@ -26,11 +26,11 @@ bool is_scannable(const MovementTerm& term) noexcept;
 /// The spans a row is measured over: a sign's strokes in order; for any other row, its span.
 using MeasuredSpans = std::function<std::vector<TimeSpan>()>;
 
-/// A condition on movement bound to one database. Borrows the movement; if it is null, nothing is known. For one
-/// thread.
+/// A condition on movement, or on how both hands take part, bound to one database. Borrows the movement; if it is null,
+/// nothing is known. For one thread.
 class MovementCheck {
  public:
-  /// `condition` must have Field::movement.
+  /// `condition` must have Field::movement or Field::hands.
   MovementCheck(const Condition& condition, const Movement* movement);
 
   /// Returns false also if the value is not known. `spans` is called if a value is not stored. Throws

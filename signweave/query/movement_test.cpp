@@ -29,7 +29,7 @@ constexpr MovementRow phase(PhaseKind kind, RowId parent, TimeSpan span) {
 
 TEST(Movement, EveryColumnHasItsOwnIndex) {
   std::set<std::size_t> places;
-  for (std::size_t i = 0; i <= static_cast<std::size_t>(HandMeasure::end_distance); ++i) {
+  for (std::size_t i = 0; i <= static_cast<std::size_t>(HandMeasure::hands); ++i) {
     for (const Side side : kSides) places.insert(place_of({static_cast<HandMeasure>(i), side}));
   }
   EXPECT_EQ(places.size(), kMovementColumns);
@@ -102,6 +102,34 @@ TEST(Movement, PhasesUseFeaturesSignsTheirStrokesAndOthersTheTrace) {
 
   const PointTrack track = trace.track(TracePoint::right_palm, {0, 60});
   EXPECT_EQ(at(HandMeasure::path, 0), over(track, trace.rate, trace.shoulder_width).path_length);
+}
+
+TEST(Movement, BothHandsAreClassifiedOverAllStrokesOfASign) {
+  const std::vector<MovementRow> rows = {sign({500ms, 2'000ms}), phase(PhaseKind::stroke, 0, {800ms, 1'200ms}),
+                                         phase(PhaseKind::hold, 0, {1'200ms, 1'500ms}),
+                                         phase(PhaseKind::stroke, 0, {1'500ms, 2'000ms})};
+  std::set<float> classes;
+  for (unsigned seed = 1; seed < 12; ++seed) {
+    const TestMotion test(150, seed);
+    const HandTrace trace = trace_hands(test.motion, test.model);
+    const std::vector<TimeSpan> spans = {rows[1].span, rows[2].span, rows[3].span};
+    const RecordingFeatures features = measure_phases(test.motion, test.model, spans, test.clock);
+    const auto class_over = [&](std::initializer_list<FrameRange> strokes) {
+      TwoHandedSum sum;
+      for (const FrameRange frames : strokes) {
+        sum.add(trace.track(TracePoint::left_palm, frames), trace.track(TracePoint::right_palm, frames));
+      }
+      return hands_of(sum, trace.body);
+    };
+    for (const RecordingFeatures& stored : {features, RecordingFeatures()}) {
+      const MovementColumns columns = measure_rows(rows, stored, trace, test.clock);
+      const std::vector<float>& hands = columns[place_of({HandMeasure::hands, Side::left})];
+      EXPECT_EQ(hands[0], class_over({{48, 72}, {90, 120}})) << seed;
+      EXPECT_EQ(hands[3], class_over({{90, 120}})) << seed;
+      classes.insert({hands[0], hands[3]});
+    }
+  }
+  EXPECT_GE(classes.size(), 2U);
 }
 
 TEST(Movement, TheExtentIsThatOfTheFrames) {
@@ -236,6 +264,7 @@ TEST(Movement, AHandThatTheRigLacksIsNotKnown) {
   EXPECT_TRUE(std::isnan(columns[place_of({HandMeasure::speed, Side::left})][0]));
   EXPECT_FALSE(std::isnan(columns[place_of({HandMeasure::speed, Side::right})][0]));
   EXPECT_TRUE(std::isnan(columns[place_of({HandMeasure::distance, Side::right})][0]));
+  EXPECT_TRUE(std::isnan(columns[place_of({HandMeasure::hands, Side::right})][0]));
 }
 
 Condition condition(const std::string& text) {

@@ -31,6 +31,11 @@ bool is_time(Field field) noexcept {
   return field >= Field::duration && field <= Field::end;
 }
 
+/// Whether its values are names that are only equal or not.
+bool is_hand(Field field) noexcept {
+  return field == Field::hand || field == Field::hands;
+}
+
 bool is_relation(Link link) noexcept {
   return link >= Link::overlaps;
 }
@@ -339,9 +344,9 @@ class Parser {
   Compare compare(Field field) {
     const QueryToken& next = in_.peek();
     const std::optional<Compare> found = next.kind == Kind::symbol ? value_of(kCompares, next.text) : std::nullopt;
-    const std::string_view allowed = is_time(field) ? "= != < <= > >=" : field == Field::hand ? "= !=" : "= != =~";
+    const std::string_view allowed = is_time(field) ? "= != < <= > >=" : is_hand(field) ? "= !=" : "= != =~";
     if (!found || (is_time(field) ? *found == Compare::matches : *found > Compare::matches) ||
-        (field == Field::hand && *found == Compare::matches)) {
+        (is_hand(field) && *found == Compare::matches)) {
       in_.fail(next.begin, fmt::format("expected a comparison after '{}', found {}; use one of {}", word_of(field),
                                        QueryLexer::shown(next), allowed));
     }
@@ -377,7 +382,11 @@ class Parser {
     } else if (condition.field == Field::phase) {
       condition.value = named(kPhaseKinds, token, "phase");
     } else if (condition.field == Field::hand) {
+      refuse_value_of(kHandsClasses, token, "hands");
       condition.value = named(kHands, token, "hand");
+    } else if (condition.field == Field::hands) {
+      refuse_value_of(kHands, token, "hand");
+      condition.value = named(kHandsClasses, token, "class of hands");
     } else {
       condition.value = token.text;
     }
@@ -387,10 +396,21 @@ class Parser {
   typename Values::value_type named(const Values& values, const QueryToken& token, std::string_view what) {
     const auto found = value_of(values, fold_case(token.text));
     if (!found) {
-      in_.fail(token.begin, fmt::format("no {} is called {}; use one of {}", what, QueryLexer::shown(token),
-                                        fmt::join(words_of(values), ", ")));
+      const std::vector<std::string> words = words_of(values);
+      const std::string near = did_you_mean(token.text, words);
+      in_.fail(token.begin, fmt::format("no {} is called {}{}", what, QueryLexer::shown(token),
+                                        near.empty() ? fmt::format("; use one of {}", fmt::join(words, ", ")) : near));
     }
     return *found;
+  }
+
+  /// `hand` and `hands` are easily confused.
+  template <typename Values>
+  void refuse_value_of(const Values& others, const QueryToken& token, std::string_view field) {
+    if (const auto found = value_of(others, fold_case(token.text))) {
+      in_.fail(token.begin, fmt::format("{} is a value of the field '{}'; did you mean {} = {}?",
+                                        QueryLexer::shown(token), field, field, word_of(*found)));
+    }
   }
 
   Regex regex(const QueryToken& token) {

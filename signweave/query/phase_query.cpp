@@ -68,6 +68,7 @@ std::string to_string(const Condition& condition) {
     std::string operator()(PhaseKind kind) const { return std::string(word_of(kind)); }
     std::string operator()(const QueryVariable& variable) const { return "$" + variable.name; }
     std::string operator()(Hand hand) const { return std::string(word_of(hand)); }
+    std::string operator()(Hands hands) const { return std::string(word_of(hands)); }
     std::string operator()(Milliseconds time) const { return fmt::format("{}ms", time.count()); }
     std::string operator()(const Amount& amount) const { return to_string(amount); }
     std::string operator()(Height height) const { return std::string(word_of(height)); }
@@ -202,8 +203,8 @@ bool is_marked(const PhaseQuery& query) noexcept {
 }
 
 std::string_view word_of(Field field) noexcept {
-  constexpr std::string_view kWords[] = {"gloss", "phase", "hand",     "recording", "tier",   "duration",
-                                         "begin", "end",   "movement", "unit",      "signer", "like"};
+  constexpr std::string_view kWords[] = {"gloss", "phase",    "hand",  "recording", "tier",   "duration", "begin",
+                                         "end",   "movement", "hands", "unit",      "signer", "like"};
   return kWords[static_cast<std::size_t>(field)];
 }
 
@@ -221,6 +222,10 @@ std::string_view word_of(Link link) noexcept {
 std::string_view word_of(PhaseKind kind) noexcept {
   constexpr std::string_view kWords[] = {"preparation", "stroke", "retraction", "hold", "other"};
   return kWords[static_cast<std::size_t>(kind)];
+}
+
+std::string_view word_of(Hands hands) noexcept {
+  return name_of(hands);
 }
 
 std::string_view word_of(Hand hand) noexcept {

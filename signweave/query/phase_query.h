@@ -9,6 +9,7 @@
 
 #include "signweave/annotation/sign.h"
 #include "signweave/core/time.h"
+#include "signweave/features/two_handed.h"
 #include "signweave/query/movement_term.h"
 
 namespace signweave {
@@ -21,13 +22,14 @@ namespace signweave {
 enum class Field {
   gloss,      ///< label of a sign; for a phase, that of its sign
   phase,      ///< PhaseKind of a phase
-  hand,       ///< of a sign or phase
+  hand,       ///< of a sign or phase, as annotated
   recording,  ///< name of the recording
   tier,       ///< label on the tier `Condition::tier`: of the segment itself, or of one that overlaps it there
   duration,
   begin,  ///< annotation time
   end,
   movement,  ///< `Condition::movement`
+  hands,     ///< how both hands take part, as measured
   unit,      ///< the segment is a unit: no comparison, no value
   signer,    ///< name of the signer
   like,      ///< not a condition, but the order of the answers: by distance to an example
@@ -49,15 +51,15 @@ struct QueryVariable {
 };
 
 /// FIELD COMPARE VALUE. The parser ensures that they fit: texts and regular expressions for gloss, recording, tier; a
-/// PhaseKind (or a regular expression over their names) for phase; a Hand for hand; milliseconds for the times; the
-/// kind given by `value_kind` for movement. `like` has an Example and no comparison; it is allowed only among the
-/// outermost operands of `&` of an element, once in a query.
+/// PhaseKind (or a regular expression over their names) for phase; a Hand for hand; Hands for hands; milliseconds for
+/// the times; the kind given by `value_kind` for movement. `like` has an Example and no comparison; it is allowed only
+/// among the outermost operands of `&` of an element, once in a query.
 struct Condition {
   Field field = Field::gloss;
   std::string tier;       ///< for Field::tier only
   MovementTerm movement;  ///< for Field::movement only
   Compare compare = Compare::equal;
-  std::variant<std::string, Regex, PhaseKind, Hand, Milliseconds, Amount, Height, Across, Reach, Facing, Contact,
+  std::variant<std::string, Regex, PhaseKind, Hand, Hands, Milliseconds, Amount, Height, Across, Reach, Facing, Contact,
                Example, QueryVariable>
       value;
   friend bool operator==(const Condition&, const Condition&) = default;
@@ -190,5 +192,6 @@ std::string_view word_of(Compare compare) noexcept;
 std::string_view word_of(Link link) noexcept;
 std::string_view word_of(PhaseKind kind) noexcept;
 std::string_view word_of(Hand hand) noexcept;
+std::string_view word_of(Hands hands) noexcept;
 
 }  // namespace signweave

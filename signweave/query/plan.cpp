@@ -125,6 +125,7 @@ class AccessPathFinder {
       case Field::like:
         return std::nullopt;
       case Field::movement:
+      case Field::hands:
         if (!condition.movement->scannable()) return std::nullopt;
         access.scans.push_back(condition.movement.get());
         access.rows = table_.size() / kRowsPerScan + 1;

@@ -40,6 +40,12 @@ class RandomQueries {
   Expression moving() {
     Expression result;
     Condition& condition = result.condition;
+    if (one_in(12)) {
+      condition.field = Field::hands;
+      condition.compare = one_in(3) ? Compare::not_equal : Compare::equal;
+      condition.value = kHandsClasses[below(kHandsClasses.size())];
+      return result;
+    }
     condition.field = Field::movement;
     MovementTerm& term = condition.movement;
     term.quantity = kQuantities[below(kQuantities.size())];

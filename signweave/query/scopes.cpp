@@ -41,6 +41,7 @@ Scopes scope_of(const Condition& condition, const std::vector<std::string>& tier
     case Field::begin:
     case Field::end:
     case Field::movement:
+    case Field::hands:
     case Field::like:
       break;
   }

@@ -65,6 +65,7 @@ LanguageWords language_words() {
                       .links = words_of(kLinks),
                       .phases = words_of(kPhaseKinds),
                       .hands = words_of(kHands),
+                      .two_handed = words_of(kHandsClasses),
                       .functions = words_of(kQuantities),
                       .points = point_words()};
   words.functions.emplace_back("like");

@@ -37,11 +37,12 @@ std::vector<LabelCount> labels_of(const Segments& segments, std::string_view tie
 /// The words of the query language (docs/query.md), grouped by role.
 struct LanguageWords {
   std::vector<std::string> fields;
-  std::vector<std::string> links;      ///< between the segments of a sequence or relation
-  std::vector<std::string> phases;     ///< values of `phase`
-  std::vector<std::string> hands;      ///< values of `hand`
-  std::vector<std::string> functions;  ///< words that precede a parenthesis
-  std::vector<std::string> points;     ///< points of the signer, the arguments of functions
+  std::vector<std::string> links;       ///< between the segments of a sequence or relation
+  std::vector<std::string> phases;      ///< values of `phase`
+  std::vector<std::string> hands;       ///< values of `hand`
+  std::vector<std::string> two_handed;  ///< values of `hands`
+  std::vector<std::string> functions;   ///< words that precede a parenthesis
+  std::vector<std::string> points;      ///< points of the signer, the arguments of functions
 };
 LanguageWords language_words();
 

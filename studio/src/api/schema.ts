@@ -162,7 +162,10 @@ export interface components {
       readonly fields: readonly string[]
       readonly links: readonly string[]
       readonly phases: readonly string[]
+      /** @description values of hand */
       readonly hands: readonly string[]
+      /** @description values of hands */
+      readonly two_handed: readonly string[]
       readonly functions: readonly string[]
       readonly points: readonly string[]
     }

@@ -13,10 +13,11 @@ const words: Words = {
   signers: ['anna'],
   tracks: ['jawOpen'],
   language: {
-    fields: ['gloss', 'phase', 'hand', 'recording', 'tier', 'duration', 'begin', 'end', 'unit', 'signer'],
+    fields: ['gloss', 'phase', 'hand', 'hands', 'recording', 'tier', 'duration', 'begin', 'end', 'unit', 'signer'],
     links: ['parent', 'child', 'ancestor', 'descendant', 'overlaps', 'during', 'starts', 'ends', 'equals'],
     phases: ['preparation', 'stroke', 'retraction', 'hold', 'other'],
     hands: ['both', 'right', 'left'],
+    two_handed: ['one', 'symmetric', 'alternating', 'asymmetric'],
     points: ['hand', 'left_hand', 'right_hand', 'head', 'neck'],
     functions: ['speed', 'mean_speed', 'path', 'distance', 'contact', 'begin', 'end', 'max', 'any', 'enters', 'track', 'gaze', 'like'],
   },
@@ -77,6 +78,8 @@ it('offers values of the other fields', () => {
   expect(at('phase = |').labels).toEqual(words.language.phases)
   expect(at('phase = str|').chosen).toBe('phase = stroke')
   expect(at('hand = |').labels).toEqual(words.language.hands)
+  expect(at('hands = |').labels).toEqual(words.language.two_handed)
+  expect(at('hands = sy|').chosen).toBe('hands = symmetric')
   expect(at('recording = |').chosen).toBe('recording = "meteo"')
   expect(at('signer != |').chosen).toBe('signer != "anna"')
   expect(at('duration > |').labels).toEqual(['300ms'])
@@ -129,6 +132,7 @@ it('offers names of tiers, recordings, tracks and points in parentheses', () => 
 it('offers comparisons, components and operators that join conditions', () => {
   expect(at('gloss |').labels).toEqual(['=', '!=', '=~'])
   expect(at('hand |').labels).toEqual(['=', '!='])
+  expect(at('hands |').labels).toEqual(['=', '!='])
   expect(at('duration |').labels).toContain('>=')
   expect(at('speed |').labels).toEqual(['('])
   expect(at('end(hand)|').labels).toContain('.height')

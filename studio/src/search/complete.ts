@@ -12,7 +12,7 @@ export interface Option {
   readonly label: string
   /** The text that replaces what was typed. */
   readonly insert: string
-  readonly kind: 'gloss' | 'label' | 'phase' | 'hand' | 'recording' | 'signer' | 'tier' | 'track' | 'word' | 'sign'
+  readonly kind: 'gloss' | 'label' | 'phase' | 'hand' | 'hands' | 'recording' | 'signer' | 'tier' | 'track' | 'word' | 'sign'
   /** For a gloss or label: its number of tokens. */
   readonly tokens?: number
 }
@@ -27,7 +27,7 @@ export interface Completion {
 }
 
 const kMost = 60
-const kPlainFields = ['gloss', 'phase', 'hand', 'recording', 'signer', 'tier', 'duration', 'begin', 'end', 'unit']
+const kPlainFields = ['gloss', 'phase', 'hand', 'hands', 'recording', 'signer', 'tier', 'duration', 'begin', 'end', 'unit']
 
 /** Returns what is valid at the caret and begins with or contains what was typed there. */
 export function complete(text: string, caret: number, words: Words): Completion {
@@ -124,7 +124,7 @@ function compares(of: string, part?: string): Option[] {
   const named = part === '.palm' || part === '.fingers' || part === '.x' || part === '.forward'
   const signs =
     kTextFields.includes(of) || of === 'tier'
-      ? ['=', '!=', ...(of === 'hand' ? [] : ['=~'])]
+      ? ['=', '!=', ...(of === 'hand' || of === 'hands' ? [] : ['=~'])]
       : of === 'contact' || of === 'enters' || part === '.contact'
         ? ['=']
         : part === '.palm' || part === '.fingers'
@@ -145,6 +145,8 @@ function values({ of, by, part, tier }: Context & { readonly at: 'value' }, word
       return plain(language.phases, 'phase')
     case 'hand':
       return plain(language.hands, 'hand')
+    case 'hands':
+      return plain(language.two_handed, 'hands')
     case 'recording':
       return texts(words.recordings, 'recording')
     case 'signer':

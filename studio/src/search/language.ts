@@ -56,6 +56,6 @@ export const kNumberOf: Readonly<Record<string, string>> = {
   '.openness': '0.5',
 }
 /** Fields that contain texts, in the order in which they are offered, and how they begin. */
-export const kTextFields: readonly string[] = ['gloss', 'phase', 'hand', 'recording', 'signer']
+export const kTextFields: readonly string[] = ['gloss', 'phase', 'hand', 'hands', 'recording', 'signer']
 export const kTimes: readonly string[] = ['duration', 'begin', 'end']
 export const kRelations: readonly string[] = ['overlaps', 'during', 'starts', 'ends', 'equals']

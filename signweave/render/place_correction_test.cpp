@@ -283,6 +283,21 @@ TEST(PlaceCorrection, APlaceBeyondReachIsRefusedInMillimetres) {
                              HasSubstr(" mm too far"))));
 }
 
+TEST(PlaceCorrection, APlaceThatBendsTheWristTooFarIsRefused) {
+  ArmPlacer placer = kPerson.placer();
+  const Motion source = kPerson.stroke(
+      [](Side side, float) { return side == Side::left ? in_front(side, 0) : Vector3f(-0.15f, 1.85f, 0.2f); });
+  const auto leaning = [&](float degrees) {
+    const Motion composed = on_other_trunk(source, [=](float, MutablePoseView pose) {
+      pose.rotations[joint("Spine")] = turn(degrees, Vector3f::UnitZ());
+    });
+    return placer.corrections(stroke_of(source, composed, false, true))[1]->why_not;
+  };
+  EXPECT_EQ(leaning(-3), std::nullopt);
+  EXPECT_THAT(leaning(-30),
+              Optional(AllOf(HasSubstr("the right wrist would bend "), HasSubstr("° beyond its limits"))));
+}
+
 TEST(PlaceCorrection, HandsThatTouchComeFromOneClipOrAreRefused) {
   ArmPlacer placer = kPerson.placer();
   const Motion source = kPerson.stroke(together);

@@ -212,8 +212,10 @@ TEST(PlaceCorrection, OnlyShoulderElbowAndWristChange) {
 
 TEST(PlaceCorrection, TheElbowKeepsItsSwivelRelativeToTheAnchor) {
   ArmPlacer placer = kPerson.placer();
-  const Motion source = kPerson.stroke(in_front);
-  const Motion composed = on_other_trunk(source, kTurned30);
+  const Motion source = kPerson.stroke(in_front, 20, false);
+  // A lean about the line of the shoulders leaves both where they are, so the whole arm can stay.
+  const Motion composed = on_other_trunk(
+      source, [](float, MutablePoseView pose) { pose.rotations[joint("Spine")] = turn(20, Vector3f::UnitX()); });
   const Motion made = corrected(placer, source, composed, placer.corrections(stroke_of(source, composed, false, true)));
   const auto elbow = [](PoseView pose) {
     const ModelPose model = to_model_space(*kPerson.skeleton, pose);

@@ -212,8 +212,10 @@ TEST(PlaceCorrection, OnlyShoulderElbowAndWristChange) {
 
 TEST(PlaceCorrection, TheElbowKeepsItsSwivelRelativeToTheAnchor) {
   ArmPlacer placer = kPerson.placer();
-  const Motion source = kPerson.stroke(in_front);
-  const Motion composed = on_other_trunk(source, kTurned30);
+  const Motion source = kPerson.stroke(in_front, 20, false);
+  // A lean about the line of the shoulders leaves both where they are, so the whole arm can stay.
+  const Motion composed = on_other_trunk(
+      source, [](float, MutablePoseView pose) { pose.rotations[joint("Spine")] = turn(20, Vector3f::UnitX()); });
   const Motion made = corrected(placer, source, composed, placer.corrections(stroke_of(source, composed, false, true)));
   const auto elbow = [](PoseView pose) {
     const ModelPose model = to_model_space(*kPerson.skeleton, pose);
@@ -281,6 +283,21 @@ TEST(PlaceCorrection, APlaceBeyondReachIsRefusedInMillimetres) {
   EXPECT_THAT(correction.why_not,
               Optional(AllOf(HasSubstr("the right hand cannot reach the place of 'X' with this trunk: "),
                              HasSubstr(" mm too far"))));
+}
+
+TEST(PlaceCorrection, APlaceThatBendsTheWristTooFarIsRefused) {
+  ArmPlacer placer = kPerson.placer();
+  const Motion source = kPerson.stroke(
+      [](Side side, float) { return side == Side::left ? in_front(side, 0) : Vector3f(-0.15f, 1.85f, 0.2f); });
+  const auto leaning = [&](float degrees) {
+    const Motion composed = on_other_trunk(source, [=](float, MutablePoseView pose) {
+      pose.rotations[joint("Spine")] = turn(degrees, Vector3f::UnitZ());
+    });
+    return placer.corrections(stroke_of(source, composed, false, true))[1]->why_not;
+  };
+  EXPECT_EQ(leaning(-3), std::nullopt);
+  EXPECT_THAT(leaning(-30),
+              Optional(AllOf(HasSubstr("the right wrist would bend "), HasSubstr("° beyond its limits"))));
 }
 
 TEST(PlaceCorrection, HandsThatTouchComeFromOneClipOrAreRefused) {

@@ -1,5 +1,7 @@
 #include "signweave/features/dominance.h"
 
+#include <fmt/format.h>
+
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
@@ -65,6 +67,13 @@ Dominance dominance_of(std::span<const StrokePaths> strokes, const HandCounts& a
   }
   if (std::abs(dominance.score) >= kDominant) dominance.hand = dominance.score > 0 ? Side::right : Side::left;
   return dominance;
+}
+
+Notice notice_unknown_hand(std::string recording, const Dominance& found) {
+  return {std::move(recording),
+          fmt::format("the signer's dominant hand is unknown (score {:.2f} of {} strokes, from -1 for left to 1 for "
+                      "right); assumed to be the right one",
+                      found.score, found.strokes)};
 }
 
 std::vector<StrokePaths> paths_in(const HandTrace& trace, std::span<const FrameRange> strokes) {

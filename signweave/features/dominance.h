@@ -3,9 +3,11 @@
 #include <cstddef>
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
+#include "signweave/core/error.h"
 #include "signweave/core/time.h"
 #include "signweave/features/hand_trace.h"
 #include "signweave/rig/part.h"
@@ -40,6 +42,9 @@ inline constexpr float kDominant = 0.25f;
 /// palm moves at least 5 cm and 2.5 times as far as the other. Without any, from the paths of all strokes. Signs
 /// annotated for one hand, at least ten, have the same weight. Non-finite paths are skipped.
 Dominance dominance_of(std::span<const StrokePaths> strokes, const HandCounts& annotated = {});
+
+/// The notice that a recording's signer, whose dominant hand is unknown, counts as right-handed.
+Notice notice_unknown_hand(std::string recording, const Dominance& found);
 
 /// Returns the paths in some strokes, frames of the traced motion; clamped to it. Without strokes: in each half second
 /// of the motion. Empty if a palm is not traced.

@@ -93,7 +93,8 @@ std::vector<MotionClip> clips_of(const Score& score, const FindSource& find) {
                                                        .place = clip.place,
                                                        .sign_places = clip.sign_places,
                                                        .kind = clip.source.kind,
-                                                       .noise = source.noise});
+                                                       .noise = source.noise,
+                                                       .mirrored = clip.mirrored});
     if (clip.id == 0) continue;
     const JunctionRef& junction = score.junctions[clip.id - 1];
     if (!junction.chosen.empty()) opened.junction = parse_junction("1=" + junction.chosen).choice;
@@ -189,7 +190,8 @@ Score score_of(const Plan& plan, const JunctionSettings& settings, const SourceR
                            .standing = placed.standing,
                            .clock = clip.clock,
                            .signs = clip.signs,
-                           .sign_places = places_of(clip, i)});
+                           .sign_places = places_of(clip, i),
+                           .mirrored = clip.mirrored});
     if (i > 0) {
       score.junctions.push_back({.number = clip.place.value_or(i),
                                  .method = std::string(method_of(settings, placed).name),

@@ -16,7 +16,7 @@ using Eigen::Vector3f;
 
 constexpr float kStillTurn = 2 * kDegree;
 /// Axes in the middle that contradict the usual pose by more than this are those of another space.
-constexpr float kContradicts = 45 * kDegree;
+constexpr float kContradicts = 30 * kDegree;
 /// Offsets that differ by less than this, and by a tenth of their length, are mirror images. Metres. (ours)
 constexpr float kSameOffset = 0.01f;
 
@@ -75,10 +75,12 @@ Reversed reversed_axis(Part part, const RigMap& rig) {
 /// Pairs joints from the top downwards.
 class Pairing {
  public:
-  Pairing(const Skeleton& skeleton, const RigMap& rig, JointIndex top, const std::vector<UsualRotation>& usual)
+  Pairing(const Skeleton& skeleton, const RigMap& rig, JointIndex top, const Quaternionf& half_turn,
+          const std::vector<UsualRotation>& usual)
       : skeleton_(skeleton),
         rig_(rig),
         axes_(skeleton, rig),
+        half_turn_(half_turn),
         usual_(usual),
         found_(skeleton.joint_count()),
         part_(skeleton.joint_count()) {
@@ -133,7 +135,8 @@ class Pairing {
 
   const Quaternionf& parent_turn(JointIndex joint) const {
     const JointIndex parent = skeleton_.joint(joint).parent;
-    return found_[at(parent == kNoJoint ? joint : parent)].turn;
+    const bool top = parent == kNoJoint || found_[at(parent)].joint == kNoJoint;
+    return top ? half_turn_ : found_[at(parent)].turn;
   }
 
   /// The turn for which the usual rotations are mirror images, given that of the parent.
@@ -142,10 +145,8 @@ class Pairing {
   }
 
   void set_middle(JointIndex joint, Quaternionf turn) {
-    if (skeleton_.joint(joint).parent != kNoJoint && found_[at(skeleton_.joint(joint).parent)].joint != kNoJoint) {
-      const Quaternionf usual = usual_turn(joint, joint);
-      if (turn_angle(turn, usual) > kContradicts) turn = usual;
-    }
+    const Quaternionf usual = usual_turn(joint, joint);
+    if (turn_angle(turn, usual) > kContradicts) turn = usual;
     found_[at(joint)] = {joint, turn};
   }
 
@@ -192,6 +193,7 @@ class Pairing {
   const Skeleton& skeleton_;
   const RigMap& rig_;
   RigAxes axes_;
+  Quaternionf half_turn_;
   const std::vector<UsualRotation>& usual_;
   std::vector<Counterpart> found_;
   std::vector<PartTurn> part_;
@@ -218,8 +220,8 @@ std::vector<UsualRotation> usual_rotations(const Motion& motion) {
 }
 
 std::vector<Counterpart> counterparts(const Skeleton& skeleton, const RigMap& rig, JointIndex top,
-                                      const std::vector<UsualRotation>& usual) {
-  return Pairing(skeleton, rig, top, usual).result();
+                                      const Quaternionf& half_turn, const std::vector<UsualRotation>& usual) {
+  return Pairing(skeleton, rig, top, half_turn, usual).result();
 }
 
 }  // namespace signweave

@@ -33,8 +33,9 @@ std::vector<UsualRotation> usual_rotations(const Motion& motion);
 ///
 /// A joint's space in the mirror follows from the axes of its part (RigAxes), which depend on offsets alone, so the two
 /// sides may have different rest spaces. Without axes it follows from the usual rotation of joints that are still, else
-/// from the parent's; a joint in the middle whose axes contradict its usual rotation by more than 45° follows that.
+/// from the parent's; a joint in the middle whose axes contradict its usual rotation by more than 30° follows that.
+/// `half_turn` is the rotation by 180° about the normal of the signer's plane, in the space of the parent of `top`.
 std::vector<Counterpart> counterparts(const Skeleton& skeleton, const RigMap& rig, JointIndex top,
-                                      const std::vector<UsualRotation>& usual);
+                                      const Eigen::Quaternionf& half_turn, const std::vector<UsualRotation>& usual);
 
 }  // namespace signweave

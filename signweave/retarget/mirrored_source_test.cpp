@@ -13,6 +13,7 @@
 #include "signweave/core/error.h"
 #include "signweave/core/test_allocations.h"
 #include "signweave/features/hand_motion.h"
+#include "signweave/retarget/retarget.h"
 #include "signweave/retarget/test_character.h"
 #include "signweave/retarget/test_other_rig.h"
 #include "signweave/rig/test_rigs.h"
@@ -173,7 +174,8 @@ TEST(Mirrored, TheSignerStaysInPlaceAndFacesTheSameWay) {
       const auto space = [&](const Motion& motion) {
         return signer_space(*body.signer.body, body.signer.rig, to_model_space(motion.skeleton(), motion.pose(frame)));
       };
-      moved += space(shown).origin - space(rig.motion).origin;
+      const auto pelvis = [&](const Motion& motion) { return motion.pose(frame).translations[0]; };
+      moved += pelvis(shown) - pelvis(rig.motion);
       turned +=
           space(shown).model_from_signer * Vector3f::UnitZ() - space(rig.motion).model_from_signer * Vector3f::UnitZ();
     }
@@ -219,6 +221,27 @@ TEST(Mirrored, TranslatedBonesOfUnequalLengthStayOnTheirSides) {
   expect_same_movement(mirrored(once, mirroring), uneven, "translated");
 }
 
+TEST(Mirrored, OffsetsThatNoPoseHasDoNotMatter) {
+  const Motion even = moving(whole_person(), 30);
+  std::vector<Joint> joints(even.skeleton().joints().begin(), even.skeleton().joints().end());
+  for (Joint& joint : joints) {
+    joint.translated = true;
+    if (joint.parent != kNoJoint) joint.offset = {0, 0.2f, 0.01f * static_cast<float>(joint.parent)};
+  }
+  Motion motion(std::make_shared<const Skeleton>(joints, std::vector<Tip>()), even.rate(), 30);
+  for (std::int64_t frame = 0; frame < 30; ++frame) {
+    std::ranges::copy(even.pose(frame).rotations, motion.pose(frame).rotations.begin());
+    for (std::size_t i = 0; i < joints.size(); ++i)
+      motion.pose(frame).translations[i] = even.skeleton().joints()[i].offset;
+  }
+  const Motion once = mirrored(motion, mirroring_of(body_seen(motion)));
+  const Motion expected = mirrored(even, mirroring_of(body_seen(even)));
+  for (std::size_t i = 0; i < joints.size(); ++i) {
+    EXPECT_LT(turn_angle(once.pose(12).rotations[i], expected.pose(12).rotations[i]), 1e-3f) << joints[i].name;
+  }
+  expect_same_movement(mirrored(once, mirroring_of(body_seen(once))), motion, "other offsets");
+}
+
 TEST(Mirrored, AJointThatOnlyOneSideHasKeepsItsRotation) {
   const auto skeleton = whole_person();
   std::vector<Joint> joints(skeleton->joints().begin(), skeleton->joints().end());
@@ -256,6 +279,24 @@ TEST(Mirrored, ARootAboveTheBodyStaysWhereItIs) {
     EXPECT_EQ(once.pose(frame).translations[0], below.pose(frame).translations[0]);
   }
   expect_same_movement(mirrored(once, mirroring_of(body_seen(once))), below, "below a root");
+}
+
+TEST(Mirrored, OnACharacterItIsTheMirrorImageToo) {
+  const Motion motion = moving(whole_person(), 40);
+  const Character character = character_of(whole_person(0.9f));
+  const RecordedBody body = body_seen(motion);
+  const Motion shown = retarget(motion, body.signer, character).motion;
+  const Motion exchanged = retarget(mirrored(motion, mirroring_of(body)), body.signer, character).motion;
+  const SignerModel model = model_of(shown);
+  const HandMotion was = measure_hands(shown, model, {0, 40});
+  const HandMotion is = measure_hands(exchanged, model, {0, 40});
+  float distance = 0;
+  for (std::size_t i = 0; i < 40; ++i) {
+    Vector3f wanted = was.hands[1].frames[i].position;
+    wanted.x() *= -1;
+    distance = std::max(distance, (is.hands[0].frames[i].position - wanted).norm());
+  }
+  EXPECT_LT(distance, 1e-3f);
 }
 
 TEST(Mirrored, ASignerWithoutShouldersIsRefused) {

@@ -18,6 +18,8 @@ using Eigen::Vector3f;
 
 /// Offsets of left and right that differ by less than this are equal. Metres. (ours)
 constexpr float kSameBone = 0.005f;
+/// A bone that is usually this far from its offset is not as the skeleton says. Metres. (ours)
+constexpr float kOtherBone = 0.03f;
 /// Wrists that miss their mirrored positions by less than this need no notice. Metres. (ours)
 constexpr float kNoticed = 0.001f;
 
@@ -45,8 +47,19 @@ std::vector<Vector3f> usual_translations(const Motion& motion) {
   return std::move(usual.translations);
 }
 
-MirroredTranslation translation_of(const Mirroring& mirroring, std::size_t index, const std::vector<Vector3f>& usual) {
-  const Skeleton& skeleton = *mirroring.skeleton;
+/// The skeleton with the bones that its poses have: the mean of a translation that is far from its offset is the
+/// offset.
+Skeleton with_real_bones(const Skeleton& skeleton, const std::vector<Vector3f>& usual) {
+  std::vector<Joint> joints(skeleton.joints().begin(), skeleton.joints().end());
+  for (std::size_t i = 0; i < usual.size(); ++i) {
+    Joint& joint = joints[at(skeleton.translated_joints()[i])];
+    if (joint.parent != kNoJoint && (usual[i] - joint.offset).norm() > kOtherBone) joint.offset = usual[i];
+  }
+  return Skeleton(std::move(joints), {skeleton.tips().begin(), skeleton.tips().end()});
+}
+
+MirroredTranslation translation_of(const Mirroring& mirroring, const Skeleton& skeleton, std::size_t index,
+                                   const std::vector<Vector3f>& usual) {
   MirroredTranslation translation{.from = index};
   const JointIndex joint = skeleton.translated_joints()[index];
   const JointIndex parent = skeleton.joint(joint).parent;
@@ -66,7 +79,14 @@ MirroredTranslation translation_of(const Mirroring& mirroring, std::size_t index
   return translation;
 }
 
-/// Sets the plane: through the mean position of the signer, with the mean direction to the signer's left as its normal.
+/// The joints from the root down to the parent of `joint`.
+std::vector<JointIndex> joints_above(const Skeleton& skeleton, JointIndex joint) {
+  std::vector<JointIndex> above;
+  while ((joint = skeleton.joint(joint).parent) != kNoJoint) above.insert(above.begin(), joint);
+  return above;
+}
+
+/// Sets the plane: through the mean position of the carrier, its normal the mean direction to the signer's left.
 void set_plane(const RecordedBody& body, Mirroring& mirroring) {
   Vector3f left = Vector3f::Zero();
   Eigen::Vector3d place = Eigen::Vector3d::Zero();
@@ -76,9 +96,10 @@ void set_plane(const RecordedBody& body, Mirroring& mirroring) {
     to_model_space(body.frames.skeleton(), body.frames.pose(frame), pose);
     const SignerSpace space = signer_space(*body.signer.body, body.signer.rig, pose);
     const Vector3f across = space.model_from_signer * Vector3f::UnitX();
-    if (!across.allFinite() || !space.origin.allFinite()) continue;
+    const Vector3f& carried = pose.positions[at(mirroring.carrier)];
+    if (!across.allFinite() || !carried.allFinite()) continue;
     left += across;
-    place += space.origin.cast<double>();
+    place += carried.cast<double>();
     ++count;
   }
   left.y() = 0;
@@ -151,12 +172,17 @@ Mirroring mirroring_of(const RecordedBody& body) {
                       .translations = {},
                       .carrier = body_carrier(frames.skeleton(), body.signer.rig),
                       .notices = {}};
-  mirroring.joints = counterparts(frames.skeleton(), body.signer.rig, mirroring.carrier, usual);
   set_plane(body, mirroring);
-  set_signs(usual, mirroring);
+  Quaternionf half_turn = mirroring.half_turn;  // in the space of the joint above the carrier
+  for (const JointIndex joint : joints_above(frames.skeleton(), mirroring.carrier)) {
+    half_turn = usual[at(joint)].mean.conjugate() * half_turn * usual[at(joint)].mean;
+  }
   const std::vector<Vector3f> places = usual_translations(frames);
+  const Skeleton bones = with_real_bones(frames.skeleton(), places);
+  mirroring.joints = counterparts(bones, body.signer.rig, mirroring.carrier, half_turn, usual);
+  set_signs(usual, mirroring);
   for (std::size_t i = 0; i < places.size(); ++i)
-    mirroring.translations.push_back(translation_of(mirroring, i, places));
+    mirroring.translations.push_back(translation_of(mirroring, bones, i, places));
   if (const float error = wrist_error(body, mirroring); error > kNoticed) {
     mirroring.notices.push_back(
         {body.recording,

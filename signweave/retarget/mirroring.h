@@ -23,7 +23,8 @@ struct MirroredTranslation {
 };
 
 /// How a recording's motion is mirrored: left and right exchanged on the same skeleton, about the vertical plane
-/// through the signer's mean position and mean forward direction. Immutable: threads may share it.
+/// through the pelvis' mean position and the signer's mean forward direction (SignerSpace). Immutable: threads may
+/// share it.
 struct Mirroring {
   std::shared_ptr<const Skeleton> skeleton;
   std::vector<Counterpart> joints;                ///< [joint]

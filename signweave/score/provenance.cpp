@@ -54,8 +54,9 @@ AnnotationDocument annotation_of(const Synthesis& synthesis, const std::string& 
     const double before = static_cast<double>(placed.core.begin - placed.output.begin) * placed.step;
     source.annotations.push_back(
         annotation(span_of(placed.output, clock),
-                   fmt::format("clip {}, place {}: {} frames {:.10g}..{:.10g}", i, synthesis.score.clips[i].place,
-                               placed.recording, placed.first_frame - before, placed.first_frame + frames),
+                   fmt::format("clip {}, place {}: {} frames {:.10g}..{:.10g}{}", i, synthesis.score.clips[i].place,
+                               placed.recording, placed.first_frame - before, placed.first_frame + frames,
+                               synthesis.score.clips[i].mirrored ? ", mirrored" : ""),
                    new_id()));
   }
   for (std::size_t i = 0; i < synthesis.junctions.size(); ++i) {

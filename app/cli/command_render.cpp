@@ -143,6 +143,7 @@ json task_of(const RenderArguments& given, const std::string& database, const st
     parameters["duration"] = drawn.how.duration;
     parameters["tempo"] = drawn.how.tempo;
     parameters["align"] = drawn.how.align;
+    if (!drawn.how.handedness.empty()) parameters["handedness"] = drawn.how.handedness;
     if (!drawn.how.junctions.empty()) parameters["junctions"] = drawn.how.junctions;
     if (!drawn.replace.empty()) parameters["replace"] = drawn.replace;
     if (!drawn.swap.empty()) parameters["swap"] = drawn.swap;

@@ -15,7 +15,7 @@ namespace signweave::cli {
 namespace {
 
 /// Options whose values a score has already decided. (Passed to CLI11, its help would list them all.)
-constexpr const char* kDecided[] = {"--transition", "--duration", "--tempo",   "--align",
+constexpr const char* kDecided[] = {"--transition", "--duration", "--tempo",   "--align",  "--handedness",
                                     "--junction",   "--rate",     "--missing", "--explain"};
 
 /// "bvh" of "out.bvh", and what is written alongside.

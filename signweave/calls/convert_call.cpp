@@ -63,6 +63,9 @@ void read_motion_half(const ImportJob& job, const ConvertCall& call, const std::
     const auto timecode = call.face.timecode.empty() ? std::nullopt : std::optional(call.face.timecode);
     add_face(*job.face, given_face_offset(*job.face, given, timecode).value_or(Seconds(0)), file.motion, made.notices);
   }
+  if (const auto hand = side_of(call.handedness)) {
+    file.motion = with_handedness(std::move(file.motion), *hand, made.info.name, made.info.rig, made.notices);
+  }
   made.frames = {0, file.motion.frame_count()};
   made.info.motion_facts.layout = std::move(file.layout);
   merge_declarations(file.declarations, made.info.declarations);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "signweave/calls/export_call.h"
+#include "signweave/calls/handedness_field.h"
 #include "signweave/calls/import_call.h"
 #include "signweave/calls/motion_reading.h"
 #include "signweave/calls/motion_writing.h"
@@ -19,6 +20,7 @@ struct ConvertCall {
   FacePlacing face;
   std::string rig;
   std::string character;
+  std::string handedness;
   bool signing_space = false;
   RateWriting rate;
   BvhWriting bvh;
@@ -33,6 +35,7 @@ void fields(Visit& visit, ConvertCall& call) {
               .is_file = true,
               .type_name = "FILE"},
         call.rig);
+  visit(handedness_field(), call.handedness);
   visit(Field{.name = "signing_space", .help = kSigningSpaceHelp}, call.signing_space);
   visit(Field{.name = "character", .help = kCharacterHelp}, call.character);
   fields(visit, call.rate);

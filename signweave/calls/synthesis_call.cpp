@@ -59,6 +59,7 @@ SynthesisOptions options_of(const SynthesisChoices& choices) {
   options.junctions = parse_junctions(choices.junctions);
   options.explain = choices.explain;
   if (!choices.rate.empty()) options.rate = parse_frame_rate(choices.rate);
+  options.handedness = side_of(choices.handedness);
   options.alignment = choices.align == "ground" ? Alignment::ground
                       : choices.align == "none" ? Alignment::none
                                                 : Alignment::automatic;

@@ -5,6 +5,7 @@
 
 #include "signweave/calls/characters.h"
 #include "signweave/calls/field.h"
+#include "signweave/calls/handedness_field.h"
 #include "signweave/calls/motion_writing.h"
 #include "signweave/calls/selection_report.h"
 #include "signweave/calls/signing_space.h"
@@ -37,6 +38,7 @@ struct SynthesisChoices {
   double tempo = 1;
   std::vector<std::string> junctions;
   std::string rate;
+  std::string handedness;
   std::string align = "auto";
   bool signing_space = false;
   std::string character;
@@ -72,6 +74,7 @@ void signing_fields(Visit& visit, SynthesisChoices& choices) {
               .shows_default = true,
               .one_of = {"auto", "ground", "none"}},
         choices.align);
+  visit(handedness_field(), choices.handedness);
   visit(Field{.name = "character", .help = kCharacterHelp}, choices.character);
   visit(
       Field{.name = "junctions",

@@ -10,6 +10,7 @@
 #include "signweave/choose/captured_spans.h"
 #include "signweave/choose/compose.h"
 #include "signweave/choose/decompose.h"
+#include "signweave/choose/handedness.h"
 #include "signweave/choose/missing_glosses.h"
 #include "signweave/choose/notices.h"
 #include "signweave/choose/on_skeleton.h"
@@ -166,6 +167,7 @@ Synthesized run(const Snapshot& snapshot, Wanted wanted, std::string_view edited
     if (clips[i].recording == edited) reference = i;
   }
   const std::shared_ptr<const MotionSource> home = clips[reference].source;
+  if (options.handedness) show_handedness(clips, *options.handedness, snapshot, notices);
   put_on_skeleton(clips, clips[reference].recording, *home, contents, notices);
   const RecordingInfo& layout = contents.at(clips[reference].recording);
   const SignerRig rig = signer_rig_of(snapshot, layout);

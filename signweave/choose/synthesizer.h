@@ -20,9 +20,10 @@ namespace signweave {
 struct SynthesisOptions {
   const TransitionMethod* method = nullptr;  ///< null: the default
   DurationModel duration;
-  double tempo = 1;               ///< kSlowestTempo to kFastestTempo
-  JunctionChoices junctions;      ///< options of single junctions; these are made even between recorded neighbours
-  std::optional<FrameRate> rate;  ///< none: the highest rate of the sources
+  double tempo = 1;                ///< kSlowestTempo to kFastestTempo
+  JunctionChoices junctions;       ///< options of single junctions; these are made even between recorded neighbours
+  std::optional<FrameRate> rate;   ///< none: the highest rate of the sources
+  std::optional<Side> handedness;  ///< signers with the other dominant hand are mirrored; none: all as captured
   Alignment alignment = Alignment::automatic;
   std::int64_t most_frames = kMostFrames;  ///< longer results are rejected before a frame is read
   bool explain = false;                    ///< fill Selection::explained

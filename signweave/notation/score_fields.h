@@ -97,6 +97,8 @@ void fields(Visit& visit, const Clip& clip) {
         OrNull<GroundTransform>{clip.standing});
   visit(AnswerField{.name = "clock"}, clip.clock);
   visit(AnswerField{.name = "signs"}, signs_of(clip));
+  visit(AnswerField{.name = "mirrored", .help = "shown with left and right exchanged; not if missing"},
+        given_if(clip.mirrored, true));
 }
 
 template <class Visit>

@@ -238,7 +238,8 @@ std::vector<MotionClip> clips_of(const Score& score, const FindSource& find) {
                                                        .place = clip.place,
                                                        .sign_places = clip.sign_places,
                                                        .kind = clip.source.kind,
-                                                       .noise = source.noise});
+                                                       .noise = source.noise,
+                                                       .mirrored = clip.mirrored});
     if (clip.id == 0) continue;
     const JunctionRef& junction = score.junctions[clip.id - 1];
     if (!junction.chosen.empty()) opened.junction = parse_junction("1=" + junction.chosen).choice;
@@ -289,7 +290,8 @@ Clip clip_of(const PlacedClip& placed, ClipId id) {
           .standing = placed.standing,
           .clock = clip.clock,
           .signs = clip.signs,
-          .sign_places = places_of(clip, id)};
+          .sign_places = places_of(clip, id),
+          .mirrored = clip.mirrored};
 }
 
 Score score_of(const Plan& plan, const JunctionSettings& settings, const SourceRef& skeleton) {

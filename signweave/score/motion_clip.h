@@ -36,6 +36,7 @@ struct MotionClip {
   SourceRef::Kind kind = SourceRef::Kind::recording;
   /// Noise of its motion, in the joints of `source`; null: unknown, or retargeted to another skeleton.
   std::shared_ptr<const CaptureNoise> noise = nullptr;
+  bool mirrored = false;  ///< `source` shows the recording with left and right exchanged
 };
 
 /// The place that one of a clip's signs fills; `number` is used for a clip without `place`.

@@ -106,8 +106,9 @@ class TierWriter {
     const ShownClip& placed = synthesis_.clips[clip];
     const double after = static_cast<double>(output.end - placed.core.begin) * placed.step;
     const double before = static_cast<double>(placed.core.begin - output.begin) * placed.step;
-    return fmt::format("clip {}, place {}: {} frames {:.10g}..{:.10g}", clip, synthesis_.score.clips[clip].place,
-                       placed.recording, placed.first_frame - before, placed.first_frame + after);
+    return fmt::format("clip {}, place {}: {} frames {:.10g}..{:.10g}{}", clip, synthesis_.score.clips[clip].place,
+                       placed.recording, placed.first_frame - before, placed.first_frame + after,
+                       synthesis_.score.clips[clip].mirrored ? ", mirrored" : "");
   }
   std::string new_id() { return fmt::format("a{}", next_++); }
 

@@ -20,7 +20,8 @@ SynthesisReport report_of(const Synthesis& synthesis) {
     for (const Phase& phase : placed.sign.phases) sign.phases.push_back({name_of(phase.kind), phase.span});
   }
   for (std::size_t i = 0; i < synthesis.clips.size(); ++i) {
-    report.clips.push_back({.clip = i, .place = synthesis.score.clips[i].place, .shown = synthesis.clips[i]});
+    const Clip& clip = synthesis.score.clips[i];
+    report.clips.push_back({.clip = i, .place = clip.place, .shown = synthesis.clips[i], .mirrored = clip.mirrored});
   }
   for (std::size_t i = 0; i < synthesis.junctions.size(); ++i) {
     report.junctions.push_back(

@@ -68,6 +68,7 @@ struct ReportClip {
   std::size_t clip = 0;
   std::size_t place = 0;
   ShownClip shown;
+  bool mirrored = false;  ///< left and right are exchanged
 };
 template <class Visit>
 void fields(Visit& visit, const ReportClip& one) {
@@ -80,6 +81,8 @@ void fields(Visit& visit, const ReportClip& one) {
   visit(AnswerField{.name = "kept_frames"}, one.shown.core);
   visit(AnswerField{.name = "kept_from_recorded_frame"}, one.shown.first_frame);
   visit(AnswerField{.name = "recorded_frames_per_frame"}, one.shown.step);
+  visit(AnswerField{.name = "mirrored", .help = "left and right are exchanged; not if missing"},
+        given_if(one.mirrored, true));
 }
 
 /// How a part of the body is cut at a junction.

@@ -39,6 +39,8 @@ struct Checker {
             shown ? "names a recording, but is of kind 'shown'" : "names no recording");
     require(!shown || index == 0, "clip {} is of kind 'shown'; only the first one can be", index);
     const bool of_body = index < body;
+    require(!clip.mirrored || clip.source.kind == SourceRef::Kind::recording,
+            "clip {} is mirrored, but not of kind 'recording'; only frames of recordings can be mirrored", index);
     require(in_range(clip.whole.begin) && in_range(clip.whole.end) && clip.whole.begin <= clip.core.begin &&
                 clip.core.begin < clip.core.end && clip.core.end <= clip.whole.end,
             "clip {} keeps frames {} to {} out of {} to {}; the first range must not be empty, and lie in the second",
@@ -219,7 +221,7 @@ std::string name_of(const Clip& clip) {
   std::string signs;
   for (const Sign& sign : clip.signs) signs += (signs.empty() ? "" : " ") + printable(sign.gloss);
   if (signs.empty()) signs = clip.source.kind == SourceRef::Kind::rest ? "at rest" : "a piece";
-  return fmt::format("{} from '{}'", signs, printable(clip.source.recording));
+  return fmt::format("{} from '{}'{}", signs, printable(clip.source.recording), clip.mirrored ? ", mirrored" : "");
 }
 
 /// The transition between two clips in a lane, or null.

@@ -48,6 +48,7 @@ struct Clip {
   FrameClock clock;                         ///< of the recording
   std::vector<Sign> signs;                  ///< its signs, in the recording's annotation time
   std::vector<std::size_t> sign_places;     ///< [sign] the place that it fills
+  bool mirrored = false;                    ///< shown with left and right exchanged; signs are as annotated
   friend bool operator==(const Clip&, const Clip&) = default;
 };
 

@@ -1,0 +1,48 @@
+#include "signweave/choose/handedness.h"
+
+#include <fmt/format.h>
+
+#include <map>
+#include <memory>
+#include <string>
+
+#include "signweave/choose/on_skeleton.h"
+#include "signweave/database/signer_dominance.h"
+#include "signweave/retarget/mirrored_source.h"
+
+namespace signweave {
+
+void show_handedness(std::vector<MotionClip>& clips, Side hand, const Snapshot& snapshot,
+                     std::vector<Notice>& notices) {
+  const Contents& contents = snapshot.contents();
+  std::map<std::string, bool> mirrored;  // by recording
+  for (MotionClip& clip : clips) {
+    const auto [at, is_new] = mirrored.try_emplace(clip.recording, false);
+    if (is_new) {
+      const RecordingInfo& info = contents.at(clip.recording);
+      const Dominance found = dominance_of(snapshot, static_cast<std::size_t>(&info - contents.recordings.data()));
+      at->second = found.hand.value_or(Side::right) != hand;
+      if (!found.hand) notices.push_back(notice_unknown_hand(clip.recording, found));
+    }
+    clip.mirrored = at->second;
+  }
+  mirror_marked(clips, contents, notices);
+}
+
+void mirror_marked(std::vector<MotionClip>& clips, const Contents& contents, std::vector<Notice>& notices) {
+  std::map<std::string, std::shared_ptr<const MotionSource>> sources;  // by recording
+  for (MotionClip& clip : clips) {
+    if (!clip.mirrored) continue;
+    std::shared_ptr<const MotionSource>& source = sources[clip.recording];
+    if (!source) {
+      const auto mirroring =
+          std::make_shared<const Mirroring>(mirroring_of(body_of(contents, clip.recording, *clip.source)));
+      notices.insert(notices.end(), mirroring->notices.begin(), mirroring->notices.end());
+      source = std::make_shared<MirroredSource>(clip.source, mirroring);
+    }
+    clip.source = source;
+    clip.noise = nullptr;
+  }
+}
+
+}  // namespace signweave

@@ -12,21 +12,22 @@
 
 namespace signweave {
 
-void show_handedness(std::vector<MotionClip>& clips, Side hand, const Snapshot& snapshot,
-                     std::vector<Notice>& notices) {
+void mark_mirrored(std::vector<MotionClip>& clips, std::span<const std::optional<Side>> hands, const Snapshot& snapshot,
+                   std::vector<Notice>& notices) {
   const Contents& contents = snapshot.contents();
-  std::map<std::string, bool> mirrored;  // by recording
-  for (MotionClip& clip : clips) {
-    const auto [at, is_new] = mirrored.try_emplace(clip.recording, false);
+  std::map<std::string, Side> dominant;  // by recording
+  for (std::size_t i = 0; i < clips.size(); ++i) {
+    MotionClip& clip = clips[i];
+    if (!hands[i]) continue;
+    const auto [at, is_new] = dominant.try_emplace(clip.recording, Side::right);
     if (is_new) {
       const RecordingInfo& info = contents.at(clip.recording);
       const Dominance found = dominance_of(snapshot, static_cast<std::size_t>(&info - contents.recordings.data()));
-      at->second = found.hand.value_or(Side::right) != hand;
+      at->second = found.hand.value_or(Side::right);
       if (!found.hand) notices.push_back(notice_unknown_hand(clip.recording, found));
     }
-    clip.mirrored = at->second;
+    clip.mirrored = at->second != *hands[i];
   }
-  mirror_marked(clips, contents, notices);
 }
 
 void mirror_marked(std::vector<MotionClip>& clips, const Contents& contents, std::vector<Notice>& notices) {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+#include <span>
 #include <vector>
 
 #include "signweave/core/error.h"
@@ -9,13 +11,14 @@
 
 namespace signweave {
 
-/// Mirrors the clips of signers whose dominant hand is not `hand`, so that all sign with that hand. A signer whose
-/// dominant hand is unknown counts as right-handed, with a notice. Throws Error{bad_input} for a signer that cannot be
-/// mirrored (mirroring_of).
-void show_handedness(std::vector<MotionClip>& clips, Side hand, const Snapshot& snapshot, std::vector<Notice>& notices);
+/// Marks the clips as mirrored whose signers' dominant hand is another than the one in `hands`, [clip]; none: any. A
+/// signer whose dominant hand is unknown counts as right-handed, with a notice.
+void mark_mirrored(std::vector<MotionClip>& clips, std::span<const std::optional<Side>> hands, const Snapshot& snapshot,
+                   std::vector<Notice>& notices);
 
 /// Mirrors the clips that are marked as mirrored, frame by frame when they are read; each recording is examined once.
-/// Adds the messages of each mirroring to `notices`. Throws likewise.
+/// Adds the messages of each mirroring to `notices`. Throws Error{bad_input} for a signer
+/// that cannot be mirrored (mirroring_of).
 void mirror_marked(std::vector<MotionClip>& clips, const Contents& contents, std::vector<Notice>& notices);
 
 }  // namespace signweave

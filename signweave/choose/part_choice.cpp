@@ -7,12 +7,10 @@
 #include "signweave/choose/missing_glosses.h"
 #include "signweave/core/error.h"
 #include "signweave/core/text.h"
+#include "signweave/database/signer_dominance.h"
 
 namespace signweave {
 namespace {
-
-/// Most signers are right-handed.
-constexpr Side kUsuallyDominant = Side::right;
 
 Channel hand(Side side) noexcept {
   return side == Side::left ? Channel::left : Channel::right;
@@ -26,6 +24,22 @@ Side other(Side side) noexcept {
 
 bool is_fingers(Channel channel) noexcept {
   return channel == Channel::left_fingers || channel == Channel::right_fingers;
+}
+
+std::optional<Side> side_of(Channel channel) noexcept {
+  if (channel == Channel::left || channel == Channel::left_fingers) return Side::left;
+  if (channel == Channel::right || channel == Channel::right_fingers) return Side::right;
+  return std::nullopt;
+}
+
+/// See ChosenPart::mirrored.
+std::optional<bool> mirrored(const Snapshot& snapshot, Channel channel, const Candidate& candidate) {
+  const std::optional<Side> side = side_of(channel);
+  if (!side || candidate.first_row == kNoRow || candidate.signs.size() != 1) return std::nullopt;
+  if (candidate.signs.front().hand != Hand::both) return std::nullopt;  // annotated for this hand or the other
+  const std::optional<Side> only = only_hand_of(snapshot, candidate.first_row);
+  if (!only) return std::nullopt;
+  return *only != *side;
 }
 
 bool is_same(const Candidate& a, const Candidate& b) {
@@ -58,7 +72,7 @@ Channel channel_of(BodyPart part, Side dominant) noexcept {
   return Channel::left;
 }
 
-std::vector<PartChoice> part_choices(const Contents& contents, const Utterance& utterance) {
+std::vector<PartChoice> part_choices(const Contents& contents, const Utterance& utterance, Side dominant) {
   Utterance all;  // every sign of a part, to report all that are missing at once
   for (const Place& place : utterance.places) {
     for (const PlacePart& part : place.parts) {
@@ -73,7 +87,7 @@ std::vector<PartChoice> part_choices(const Contents& contents, const Utterance& 
       PartChoice& choice = choices.emplace_back(
           PartChoice{.place = i,
                      .last = std::min(i + std::max<std::size_t>(part.places, 1), utterance.places.size()) - 1,
-                     .channel = channel_of(part.part, place.dominant.value_or(kUsuallyDominant)),
+                     .channel = channel_of(part.part, place.dominant.value_or(dominant)),
                      .signs = {},
                      .sync = {}});
       for (const PartSign& sign : part.signs) {
@@ -103,6 +117,11 @@ std::set<std::size_t> clip_borders(const Utterance& utterance) {
       borders.insert(i);
       borders.insert(i + part.places);
     }
+  }
+  for (std::size_t i = 0; i < utterance.places.size(); ++i) {
+    if (!utterance.places[i].dominant) continue;
+    borders.insert(i);
+    borders.insert(i + 1);
   }
   for (const HandHold& held : utterance.holds) {
     borders.insert(held.from + 1);
@@ -136,6 +155,7 @@ std::vector<ChosenPart> choose_parts(const Snapshot& snapshot, std::span<const P
     for (std::size_t i = 0; i < part.signs.size(); ++i) {
       const std::size_t at = before + i;
       result.push_back({&part, i, chain[at].candidates[selection.chosen[at]]});
+      result.back().mirrored = mirrored(snapshot, part.channel, result.back().candidate);
     }
   }
   return result;
@@ -157,11 +177,11 @@ ChannelClip channel_clip(const ChosenPart& chosen, std::span<const std::size_t> 
   return clip;
 }
 
-std::vector<ChannelHold> channel_holds(const Utterance& utterance) {
+std::vector<ChannelHold> channel_holds(const Utterance& utterance, Side dominant) {
   std::vector<ChannelHold> holds;
   for (const HandHold& held : utterance.holds) {
-    const Side dominant = utterance.places[held.from].dominant.value_or(kUsuallyDominant);
-    holds.push_back({.channel = channel_of(held.hand, dominant), .from = held.from, .until = held.until});
+    const Side of_place = utterance.places[held.from].dominant.value_or(dominant);
+    holds.push_back({.channel = channel_of(held.hand, of_place), .from = held.from, .until = held.until});
   }
   return holds;
 }

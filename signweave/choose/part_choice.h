@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <set>
 #include <span>
 #include <vector>
@@ -26,8 +27,9 @@ struct PartChoice {
   std::vector<std::vector<ClipSync>> sync;  ///< [sign]; `with` is a place. Of the first, empty: it begins with the part
   std::vector<bool> continues = {};         ///< [sign] see MotionClip; empty: none
 };
-/// Throws MissingGlosses for unknown glosses, Error{bad_input} for parts that name the same channel of a place twice.
-std::vector<PartChoice> part_choices(const Contents& contents, const Utterance& utterance);
+/// `dominant` is the dominant hand of places that name none. Throws MissingGlosses for unknown glosses,
+/// Error{bad_input} for parts that name the same channel of a place twice.
+std::vector<PartChoice> part_choices(const Contents& contents, const Utterance& utterance, Side dominant);
 
 /// The places at which a clip must begin because a part or a hold begins or ends there.
 std::set<std::size_t> clip_borders(const Utterance& utterance);
@@ -37,6 +39,9 @@ struct ChosenPart {
   const PartChoice* part = nullptr;
   std::size_t sign = 0;  ///< its number within the part
   Candidate candidate;
+  /// The hand of the part shows the sign mirrored if the other hand signs it alone, and as captured if this one does.
+  /// None: both hands sign it, or the part is no hand.
+  std::optional<bool> mirrored = {};
 };
 /// Chooses a candidate for each sign of the parts: the token of the place itself if the part signs the same, else the
 /// one that joins best with what is signed before and after it. A part that signs nothing but its place's token with it
@@ -49,6 +54,6 @@ std::vector<ChosenPart> choose_parts(const Snapshot& snapshot, std::span<const P
 /// each place.
 ChannelClip channel_clip(const ChosenPart& chosen, std::span<const std::size_t> clip_of);
 /// The holds of an utterance, between places instead of clips.
-std::vector<ChannelHold> channel_holds(const Utterance& utterance);
+std::vector<ChannelHold> channel_holds(const Utterance& utterance, Side dominant);
 
 }  // namespace signweave

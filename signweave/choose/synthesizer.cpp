@@ -17,6 +17,7 @@
 #include "signweave/choose/open_score.h"
 #include "signweave/choose/part_choice.h"
 #include "signweave/core/error.h"
+#include "signweave/database/signer_dominance.h"
 
 namespace signweave {
 namespace {
@@ -35,8 +36,9 @@ struct ChosenClip {
 struct Wanted {
   std::vector<Choice> choices;  ///< of the places
   std::vector<PartChoice> parts = {};
-  std::vector<ChannelHold> holds = {};  ///< between places
-  std::set<std::size_t> borders = {};   ///< places at which parts begin or end
+  std::vector<ChannelHold> holds = {};             ///< between places
+  std::set<std::size_t> borders = {};              ///< places at which parts begin or end
+  std::vector<std::optional<Side>> dominant = {};  ///< [place]; empty: as for all
 };
 
 /// If the junction between neighbours is named, its transition is generated, because options were given for it. At
@@ -110,6 +112,23 @@ ComposedParts composed_parts(const Snapshot& snapshot, const Wanted& wanted, con
   return composed;
 }
 
+/// Mirrors clips so that each is signed with the dominant hand that was asked for, and each hand's part by that hand.
+void mirror(std::vector<MotionClip>& clips, const std::vector<ChosenClip>& chosen, const Wanted& wanted,
+            const std::vector<ChosenPart>& parts, const SynthesisOptions& options, const Snapshot& snapshot,
+            std::vector<Notice>& notices) {
+  std::vector<std::optional<Side>> hands;
+  for (const ChosenClip& clip : chosen) {
+    const bool own = !wanted.dominant.empty() && wanted.dominant[clip.place];
+    hands.push_back(own ? wanted.dominant[clip.place] : options.handedness);
+  }
+  mark_mirrored(clips, hands, snapshot, notices);
+  const std::size_t body = clips.size() - parts.size();
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    if (parts[i].mirrored) clips[body + i].mirrored = *parts[i].mirrored;
+  }
+  mirror_marked(clips, snapshot.contents(), notices);
+}
+
 /// `edited` is the name of the edited recording; empty for an utterance.
 Synthesized run(const Snapshot& snapshot, Wanted wanted, std::string_view edited, const SynthesisOptions& options,
                 Clock::time_point start, Synthesis used) {
@@ -167,7 +186,7 @@ Synthesized run(const Snapshot& snapshot, Wanted wanted, std::string_view edited
     if (clips[i].recording == edited) reference = i;
   }
   const std::shared_ptr<const MotionSource> home = clips[reference].source;
-  if (options.handedness) show_handedness(clips, *options.handedness, snapshot, notices);
+  mirror(clips, chosen_clips, wanted, composed.chosen, options, snapshot, notices);
   put_on_skeleton(clips, clips[reference].recording, *home, contents, notices);
   const RecordingInfo& layout = contents.at(clips[reference].recording);
   const SignerRig rig = signer_rig_of(snapshot, layout);
@@ -210,6 +229,15 @@ Synthesized run(const Snapshot& snapshot, Wanted wanted, std::string_view edited
                   .concatenation = done - selected - reading,
                   .total = done - start};
   return made;
+}
+
+/// The dominant hand of the signer of the first place's tokens; it is asked for only if parts name it.
+Side usual_hand(const Snapshot& snapshot, const Utterance& utterance) {
+  const bool has_parts = !utterance.holds.empty() ||
+                         std::ranges::any_of(utterance.places, [](const Place& place) { return !place.parts.empty(); });
+  if (!has_parts) return Side::right;
+  const std::vector<Candidate> first = candidates_for(snapshot.contents(), utterance.places.front());
+  return dominance_of(snapshot, first.front().recording).hand.value_or(Side::right);
 }
 
 /// A recording in channels: every place stays a clip of its own.
@@ -257,12 +285,14 @@ Synthesized synthesize(const Database& database, const Utterance& utterance, con
   const auto start = Clock::now();
   const Snapshot snapshot = database.snapshot();
   require_glosses(utterance, snapshot.contents().segments);
+  const Side dominant = options.handedness.value_or(usual_hand(snapshot, utterance));
   Wanted wanted{.choices = {},
-                .parts = part_choices(snapshot.contents(), utterance),
-                .holds = channel_holds(utterance),
+                .parts = part_choices(snapshot.contents(), utterance, dominant),
+                .holds = channel_holds(utterance, dominant),
                 .borders = clip_borders(utterance)};
   for (const Place& place : utterance.places) {
     wanted.choices.push_back({candidates_for(snapshot.contents(), place), place.pause_before});
+    wanted.dominant.push_back(place.dominant);
   }
   return run(snapshot, std::move(wanted), {}, options, start, std::move(used));
 }

@@ -40,6 +40,14 @@ std::string_view name_of(const Dominance& dominance) noexcept {
   return *dominance.hand == Side::left ? "left" : "right";
 }
 
+std::optional<Side> only_hand(const StrokePaths& paths) noexcept {
+  const float more = std::max(paths.left, paths.right);
+  if (!std::isfinite(more) || more < kMoves || more < kOneHanded * std::min(paths.left, paths.right)) {
+    return std::nullopt;
+  }
+  return paths.left > paths.right ? Side::left : Side::right;
+}
+
 Dominance dominance_of(std::span<const StrokePaths> strokes, const HandCounts& annotated) {
   StrokePaths one_handed;
   StrokePaths all;

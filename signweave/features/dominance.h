@@ -43,6 +43,10 @@ inline constexpr float kDominant = 0.25f;
 /// annotated for one hand, at least ten, have the same weight. Non-finite paths are skipped.
 Dominance dominance_of(std::span<const StrokePaths> strokes, const HandCounts& annotated = {});
 
+/// The hand that moves alone in a stroke, or in several together: its palm at least 5 cm and 2.5 times as far as the
+/// other; none if both move, or neither.
+std::optional<Side> only_hand(const StrokePaths& paths) noexcept;
+
 /// The notice that a recording's signer, whose dominant hand is unknown, counts as right-handed.
 Notice notice_unknown_hand(std::string recording, const Dominance& found);
 

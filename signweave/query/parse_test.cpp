@@ -110,7 +110,7 @@ TEST(Parse, AFaultIsOneLineWithItsColumn) {
       {"hand =~ /l.*/", 6, "use one of = !="},
       {"hands = both", 9, "'both' is a value of the field 'hand'; did you mean hand = both?"},
       {"hand = Symmetric", 8, "'Symmetric' is a value of the field 'hands'; did you mean hands = symmetric?"},
-      {"hands = symetric", 9, "no class of hands is called 'symetric'; did you mean symmetric?"},
+      {"hands = symetric", 9, "no class of hands is called 'symetric'; did you mean symmetric or asymmetric?"},
       {"hands = two", 9, "use one of one, symmetric, alternating, asymmetric"},
       {"hands > one", 7, "use one of = !="},
       {"hand = middle", 8, "no hand is called 'middle'; use one of both, right, left"},

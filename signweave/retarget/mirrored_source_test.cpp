@@ -62,6 +62,18 @@ Pose uneven_rest(const Skeleton& skeleton) {
   return rest;
 }
 
+/// A rest pose that lies on the side from the spine up, with a foot turned outwards: each has a space of its own.
+Pose lying_rest(const Skeleton& skeleton) {
+  Pose rest(skeleton);
+  const auto turn = [&](const char* name, float angle, const Vector3f& axis) {
+    rest.rotations[static_cast<std::size_t>(*skeleton.find(name))] = Eigen::AngleAxisf(angle, axis);
+  };
+  turn("Spine", -1.5707963f, Vector3f::UnitZ());
+  turn("LeftFoot", 1.5707963f, Vector3f::UnitY());
+  turn("RightFoot", -0.9f, Vector3f::UnitX());
+  return rest;
+}
+
 struct MovingRig {
   std::string name;
   Motion motion;
@@ -97,6 +109,7 @@ std::vector<MovingRig> mirrored_rigs() {
   add("twist joints", with_twist(*whole_person(), {"LeftHand", "RightHand", "Neck"}), 0.3f);
   Motion even = moving(rig_body({.fingers = kThreeJointFingers}).shared_skeleton(), 60);
   all.push_back({"uneven rest", placed(rested(even, uneven_rest(even.skeleton()).view()), 0.4f, {0, 0, 1})});
+  all.push_back({"lying rest", rested(even, lying_rest(even.skeleton()).view())});
   return all;
 }
 

@@ -1,7 +1,7 @@
 #include "signweave/retarget/counterparts.h"
 
+#include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 
 #include "signweave/motion/degree.h"
@@ -15,14 +15,31 @@ using Eigen::Quaternionf;
 using Eigen::Vector3f;
 
 constexpr float kStillTurn = 2 * kDegree;
-/// Axes in the middle that contradict the usual pose by more than this are those of another space.
-constexpr float kContradicts = 30 * kDegree;
+/// A direction to the left that differs by more than this from the signer's in the poses is one of another space.
+/// (ours)
+constexpr float kContradicts = 25 * kDegree;
+/// A direction to the left this near to a coordinate axis is that axis: measured offsets are not quite symmetric.
+/// (ours)
+constexpr float kSnapped = 15 * kDegree;
+/// Bones that miss the mirror image of the other side's by more than this show that axes are those of another space.
+/// (ours)
+constexpr float kMisfit = 25 * kDegree;
 /// Offsets that differ by less than this, and by a tenth of their length, are mirror images. Metres. (ours)
 constexpr float kSameOffset = 0.01f;
 
 float turn_angle(const Quaternionf& a, const Quaternionf& b) {
   const Quaternionf turn = a.conjugate() * b;
   return 2 * std::atan2(turn.vec().norm(), std::abs(turn.w()));
+}
+
+/// The angle between two lines, radians in [0, π/2]; 0 for a zero vector.
+float line_angle(const Vector3f& a, const Vector3f& b) {
+  return std::atan2(a.cross(b).norm(), std::abs(a.dot(b)));
+}
+
+/// Half a turn about an axis of length 1.
+Quaternionf turn_about(const Vector3f& axis) {
+  return {0, axis.x(), axis.y(), axis.z()};
 }
 
 std::optional<Part> opposite(Part part) {
@@ -75,12 +92,11 @@ Reversed reversed_axis(Part part, const RigMap& rig) {
 /// Pairs joints from the top downwards.
 class Pairing {
  public:
-  Pairing(const Skeleton& skeleton, const RigMap& rig, JointIndex top, const Quaternionf& half_turn,
-          const std::vector<UsualRotation>& usual)
+  Pairing(const Skeleton& skeleton, const RigMap& rig, JointIndex top, const std::vector<UsualRotation>& usual)
       : skeleton_(skeleton),
         rig_(rig),
         axes_(skeleton, rig),
-        half_turn_(half_turn),
+        left_(left_at_rest()),
         usual_(usual),
         found_(skeleton.joint_count()),
         part_(skeleton.joint_count()) {
@@ -88,7 +104,7 @@ class Pairing {
     for (JointIndex joint = top; joint < static_cast<JointIndex>(found_.size()); ++joint) {
       const JointIndex parent = skeleton.joint(joint).parent;
       if (joint == top) {
-        set_middle(joint, axes_turn(Part::pelvis, Part::pelvis, Reversed::across));
+        set_middle(joint, turn_about(left_));
       } else if (parent != kNoJoint && found_[at(parent)].joint != kNoJoint) {
         take(joint, parent);
       }
@@ -108,10 +124,26 @@ class Pairing {
     return joint == top;
   }
 
+  /// The unit vector from right to left at rest.
+  Vector3f left_at_rest() const {
+    Vector3f left = axes_.trunk() * Vector3f::UnitY();
+    for (const Part part : {Part::left_clavicle, Part::left_thigh, Part::left_upper_arm}) {
+      if (!rig_.has(part) || !rig_.has(of(Side::right, part))) continue;
+      const Vector3f across = axes_.place(part) - axes_.place(of(Side::right, part));
+      if (across.norm() > 2 * kSameOffset) left = across.normalized();
+    }
+    Eigen::Index most = 0;
+    left.cwiseAbs().maxCoeff(&most);
+    const Vector3f axis = std::copysign(1.0f, left[most]) * Vector3f::Unit(most);
+    return line_angle(axis, left) < kSnapped ? axis : left;
+  }
+
+  /// The turn that a part's axes give.
   Quaternionf axes_turn(Part to, Part from, Reversed axis) const {
+    const bool foot = to >= Part::left_foot && to <= Part::right_toes;
+    if (axis == Reversed::across && !foot) return turn_about(left_);
     const Quaternionf half = axis == Reversed::across ? Quaternionf(0, 0, 1, 0) : Quaternionf(0, 0, 0, 1);
-    const auto axes = [&](Part part) { return rig_.has(part) ? axes_[part] : axes_.trunk(); };
-    return (axes(to) * half * axes(from).conjugate()).normalized();
+    return (axes_[to] * half * axes_[from].conjugate()).normalized();
   }
 
   /// Finds the counterparts that the map gives. A joint with several parts takes the first.
@@ -135,8 +167,7 @@ class Pairing {
 
   const Quaternionf& parent_turn(JointIndex joint) const {
     const JointIndex parent = skeleton_.joint(joint).parent;
-    const bool top = parent == kNoJoint || found_[at(parent)].joint == kNoJoint;
-    return top ? half_turn_ : found_[at(parent)].turn;
+    return found_[at(parent)].turn;
   }
 
   /// The turn for which the usual rotations are mirror images, given that of the parent.
@@ -145,9 +176,62 @@ class Pairing {
   }
 
   void set_middle(JointIndex joint, Quaternionf turn) {
-    const Quaternionf usual = usual_turn(joint, joint);
-    if (turn_angle(turn, usual) > kContradicts) turn = usual;
+    const Vector3f& usual = usual_[at(joint)].left;
+    if (misfit(joint, joint, turn) > kMisfit) {
+      turn = turn_about(left_of_children(joint));
+    } else if (line_angle(usual, turn.vec()) > kContradicts && misfit(joint, joint, turn_about(usual)) <= kMisfit) {
+      turn = turn_about(usual);
+    }
     found_[at(joint)] = {joint, turn};
+  }
+
+  /// The turn of a pair: that of the axes unless bones show that these are of another space.
+  Quaternionf pair_turn(JointIndex joint, JointIndex from, const std::optional<Quaternionf>& axes) const {
+    Quaternionf best = axes.value_or(parent_turn(joint));
+    float least = misfit(joint, from, best);
+    if (least <= kMisfit) return best;
+    for (const Quaternionf& other : {usual_turn(joint, from), parent_turn(joint)}) {
+      if (misfit(joint, from, other) >= least) continue;
+      best = other;
+      least = misfit(joint, from, best);
+    }
+    return best;
+  }
+
+  /// Calls `use(offset, offset of the counterpart)` for each child of a joint whose counterpart is a child of `from`.
+  template <class Use>
+  void for_children(JointIndex joint, JointIndex from, Use&& use) const {
+    for (JointIndex child = joint + 1; child < static_cast<JointIndex>(found_.size()); ++child) {
+      const JointIndex other = part_[at(child)].joint;
+      if (skeleton_.joint(child).parent != joint || other == kNoJoint) continue;
+      if (skeleton_.joint(other).parent == from) use(skeleton_.joint(child).offset, skeleton_.joint(other).offset);
+    }
+  }
+
+  /// The largest angle between a bone and the mirror image of the counterpart's; of a joint in the middle, between the
+  /// lines from right to left. 0 if it has no such bones.
+  float misfit(JointIndex joint, JointIndex from, const Quaternionf& turn) const {
+    float most = 0;
+    if (joint == from) {
+      const Vector3f left = left_of_children(joint);
+      if (left.isZero()) return 0;
+      return line_angle(left, turn.vec());
+    }
+    for_children(joint, from, [&](const Vector3f& own, const Vector3f& others) {
+      const Vector3f seen = -(turn * others);
+      if (own.norm() > kSameOffset) most = std::max(most, std::atan2(own.cross(seen).norm(), own.dot(seen)));
+    });
+    return most;
+  }
+
+  /// The unit vector from right to left, up to its sign, between the children that are a pair and farthest apart; zero
+  /// if there is none.
+  Vector3f left_of_children(JointIndex joint) const {
+    Vector3f left = Vector3f::Zero();
+    for_children(joint, joint, [&](const Vector3f& own, const Vector3f& others) {
+      if ((own - others).norm() > std::max(left.norm(), kSameOffset)) left = own - others;
+    });
+    return left.isZero() ? left : Vector3f(left.normalized());
   }
 
   void set_pair(JointIndex joint, JointIndex from, const Quaternionf& turn) {
@@ -162,7 +246,7 @@ class Pairing {
     if (part.joint == joint) {
       if (in_middle) set_middle(joint, part.turn.value_or(parent_turn(joint)));
     } else if (part.joint != kNoJoint) {
-      set_pair(joint, part.joint, part.turn.value_or(parent_turn(joint)));
+      set_pair(joint, part.joint, pair_turn(joint, part.joint, part.turn));
     } else if (const JointIndex from = same_place(joint, found_[at(parent)].joint); from == joint) {
       set_middle(joint, usual_[at(joint)].still ? usual_turn(joint, joint) : parent_turn(joint));
     } else if (from != kNoJoint) {
@@ -171,8 +255,22 @@ class Pairing {
     }
   }
 
-  /// The free child of a joint that is the mirror image of `joint`: by name, else the one whose offset is nearest.
+  /// The free child of `parent` below which the counterparts of the parts below `joint` are; kNoJoint if there is none.
+  JointIndex same_parts(JointIndex joint, JointIndex parent) const {
+    for (JointIndex below = joint + 1; below < static_cast<JointIndex>(found_.size()); ++below) {
+      if (part_[at(below)].joint == kNoJoint || !is_below(below, joint)) continue;
+      JointIndex other = part_[at(below)].joint;
+      while (other > parent && skeleton_.joint(other).parent != parent) other = skeleton_.joint(other).parent;
+      const bool free = other > parent && part_[at(other)].joint == kNoJoint && found_[at(other)].joint == kNoJoint;
+      return free ? other : kNoJoint;
+    }
+    return kNoJoint;
+  }
+
+  /// The free child of a joint that is the mirror image of `joint`: by the parts below it, by name, else the one whose
+  /// offset is nearest.
   JointIndex same_place(JointIndex joint, JointIndex parent) const {
+    if (const JointIndex other = same_parts(joint, parent); other != kNoJoint) return other;
     const auto name = other_side(skeleton_.joint(joint).name);
     const Vector3f wanted = -(parent_turn(joint).conjugate() * skeleton_.joint(joint).offset);
     const bool in_middle = parent == skeleton_.joint(joint).parent;
@@ -193,7 +291,7 @@ class Pairing {
   const Skeleton& skeleton_;
   const RigMap& rig_;
   RigAxes axes_;
-  Quaternionf half_turn_;
+  Vector3f left_;  ///< to the signer's left where every rotation is the identity, unit
   const std::vector<UsualRotation>& usual_;
   std::vector<Counterpart> found_;
   std::vector<PartTurn> part_;
@@ -220,8 +318,8 @@ std::vector<UsualRotation> usual_rotations(const Motion& motion) {
 }
 
 std::vector<Counterpart> counterparts(const Skeleton& skeleton, const RigMap& rig, JointIndex top,
-                                      const Quaternionf& half_turn, const std::vector<UsualRotation>& usual) {
-  return Pairing(skeleton, rig, top, half_turn, usual).result();
+                                      const std::vector<UsualRotation>& usual) {
+  return Pairing(skeleton, rig, top, usual).result();
 }
 
 }  // namespace signweave

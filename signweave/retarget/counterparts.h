@@ -20,9 +20,10 @@ struct Counterpart {
 /// What the rotation of a joint relative to its parent usually is.
 struct UsualRotation {
   Eigen::Quaternionf mean = Eigen::Quaternionf::Identity();
-  bool still = false;  ///< it never leaves the mean by more than 2°
+  bool still = false;                              ///< it never leaves the mean by more than 2°
+  Eigen::Vector3f left = Eigen::Vector3f::Zero();  ///< mean direction to the signer's left, joint's space, unit or zero
 };
-/// Returns [joint] for a motion of at least one frame. Non-finite rotations are skipped.
+/// Returns [joint] for a motion of at least one frame, without `left`. Non-finite rotations are skipped.
 std::vector<UsualRotation> usual_rotations(const Motion& motion);
 
 /// Returns [joint] the counterpart of each joint that is `top` or below it; the others have none.
@@ -33,9 +34,10 @@ std::vector<UsualRotation> usual_rotations(const Motion& motion);
 ///
 /// A joint's space in the mirror follows from the axes of its part (RigAxes), which depend on offsets alone, so the two
 /// sides may have different rest spaces. Without axes it follows from the usual rotation of joints that are still, else
-/// from the parent's; a joint in the middle whose axes contradict its usual rotation by more than 30° follows that.
-/// `half_turn` is the rotation by 180° about the normal of the signer's plane, in the space of the parent of `top`.
+/// from the parent's. Bones to a pair of children that the axes miss by more than 25° show that the joint has a space
+/// of its own, which then follows from these bones or from the usual rotation; of a joint in the middle without such
+/// bones, so does a usual direction to the left that differs by more than 25°.
 std::vector<Counterpart> counterparts(const Skeleton& skeleton, const RigMap& rig, JointIndex top,
-                                      const Eigen::Quaternionf& half_turn, const std::vector<UsualRotation>& usual);
+                                      const std::vector<UsualRotation>& usual);
 
 }  // namespace signweave

@@ -13,6 +13,7 @@
 #include "signweave/core/error.h"
 #include "signweave/core/test_allocations.h"
 #include "signweave/features/hand_motion.h"
+#include "signweave/features/phase_features.h"
 #include "signweave/retarget/retarget.h"
 #include "signweave/retarget/test_character.h"
 #include "signweave/retarget/test_other_rig.h"
@@ -62,6 +63,18 @@ Pose uneven_rest(const Skeleton& skeleton) {
   return rest;
 }
 
+/// A rest pose that lies on the side from the spine up, with a foot turned outwards: each has a space of its own.
+Pose lying_rest(const Skeleton& skeleton) {
+  Pose rest(skeleton);
+  const auto turn = [&](const char* name, float angle, const Vector3f& axis) {
+    rest.rotations[static_cast<std::size_t>(*skeleton.find(name))] = Eigen::AngleAxisf(angle, axis);
+  };
+  turn("Spine", -1.5707963f, Vector3f::UnitZ());
+  turn("LeftFoot", 1.5707963f, Vector3f::UnitZ());
+  turn("RightFoot", -0.9f, Vector3f::UnitX());
+  return rest;
+}
+
 struct MovingRig {
   std::string name;
   Motion motion;
@@ -97,6 +110,7 @@ std::vector<MovingRig> mirrored_rigs() {
   add("twist joints", with_twist(*whole_person(), {"LeftHand", "RightHand", "Neck"}), 0.3f);
   Motion even = moving(rig_body({.fingers = kThreeJointFingers}).shared_skeleton(), 60);
   all.push_back({"uneven rest", placed(rested(even, uneven_rest(even.skeleton()).view()), 0.4f, {0, 0, 1})});
+  all.push_back({"lying rest", rested(even, lying_rest(even.skeleton()).view())});
   return all;
 }
 
@@ -151,6 +165,24 @@ TEST(Mirrored, PalmsExchangeTheirPlaces) {
       }
       EXPECT_LT(distance, 1e-4f) << rig.name;
       EXPECT_LT(direction, 1e-3f) << rig.name;
+    }
+  }
+}
+
+TEST(Mirrored, EveryJointIsWhereTheMirrorShowsItsCounterpart) {
+  for (const MovingRig& rig : mirrored_rigs()) {
+    const Mirroring mirroring = mirroring_of(body_seen(rig.motion));
+    const Motion shown = mirrored(rig.motion, mirroring);
+    for (std::int64_t frame = 0; frame < shown.frame_count(); frame += 7) {
+      const ModelPose was = to_model_space(rig.motion.skeleton(), rig.motion.pose(frame));
+      const ModelPose is = to_model_space(shown.skeleton(), shown.pose(frame));
+      for (std::size_t i = 0; i < is.positions.size(); ++i) {
+        const auto from = static_cast<std::size_t>(mirroring.joints[i].joint);
+        const Vector3f wanted = mirroring.place - mirroring.half_turn * (was.positions[from] - mirroring.place);
+        const bool toes = shown.skeleton().joints()[i].name.find("Toe") != std::string::npos;
+        ASSERT_LT((is.positions[i] - wanted).norm(), toes ? 0.05f : 1e-3f)
+            << rig.name << ' ' << shown.skeleton().joints()[i].name;
+      }
     }
   }
 }
@@ -272,7 +304,14 @@ TEST(Mirrored, JointsWithoutAPartFollowTheirPartnersByNameOrByOffset) {
 }
 
 TEST(Mirrored, ARootAboveTheBodyStaysWhereItIs) {
-  const Motion below = below_a_still_root(placed(moving(whole_person(), 40), 0.9f, {2, 0, 1}));
+  Motion below = below_a_still_root(placed(moving(whole_person(), 40), 0.9f, {2, 0, 1}));
+  const Quaternionf upright(Eigen::AngleAxisf(-1.5707963f, Vector3f::UnitX()));  // as in files with z up
+  for (std::int64_t frame = 0; frame < 40; ++frame) {
+    const MutablePoseView pose = below.pose(frame);
+    pose.rotations[0] = upright;
+    pose.rotations[1] = upright.conjugate() * pose.rotations[1];
+    pose.translations[1] = upright.conjugate() * pose.translations[1];
+  }
   const Motion once = mirrored(below, mirroring_of(body_seen(below)));
   for (std::int64_t frame = 0; frame < 40; ++frame) {
     EXPECT_EQ(once.pose(frame).rotations[0].coeffs(), below.pose(frame).rotations[0].coeffs());
@@ -315,6 +354,9 @@ TEST(Mirrored, ASignerWithoutShouldersIsRefused) {
 /// A source of a moving person with a face.
 std::shared_ptr<const MemorySource> moving_face() {
   Motion motion = moving(whole_person(), 100);
+  for (std::int64_t frame = 0; frame < 100; ++frame) {  // turns around more than once
+    motion.pose(frame).rotations[0] = Eigen::AngleAxisf(0.15f * static_cast<float>(frame), Vector3f::UnitY());
+  }
   const auto track = [&](const char* name, float scale) {
     std::vector<float> values(100);
     for (std::size_t i = 0; i < values.size(); ++i) values[i] = scale * static_cast<float>(i);

@@ -79,15 +79,9 @@ MirroredTranslation translation_of(const Mirroring& mirroring, const Skeleton& s
   return translation;
 }
 
-/// The joints from the root down to the parent of `joint`.
-std::vector<JointIndex> joints_above(const Skeleton& skeleton, JointIndex joint) {
-  std::vector<JointIndex> above;
-  while ((joint = skeleton.joint(joint).parent) != kNoJoint) above.insert(above.begin(), joint);
-  return above;
-}
-
-/// Sets the plane: through the mean position of the carrier, its normal the mean direction to the signer's left.
-void set_plane(const RecordedBody& body, Mirroring& mirroring) {
+/// Sets the plane: through the mean position of the carrier, its normal the mean direction to the signer's left. Sets
+/// that direction in each joint's space, too.
+void set_plane(const RecordedBody& body, Mirroring& mirroring, std::vector<UsualRotation>& usual) {
   Vector3f left = Vector3f::Zero();
   Eigen::Vector3d place = Eigen::Vector3d::Zero();
   double count = 0;
@@ -99,9 +93,15 @@ void set_plane(const RecordedBody& body, Mirroring& mirroring) {
     const Vector3f& carried = pose.positions[at(mirroring.carrier)];
     if (!across.allFinite() || !carried.allFinite()) continue;
     left += across;
+    for (std::size_t i = 0; i < usual.size(); ++i) {
+      const Vector3f own = pose.rotations[i].conjugate() * across;
+      if (own.allFinite()) usual[i].left += own;
+    }
     place += carried.cast<double>();
     ++count;
   }
+  for (UsualRotation& one : usual)
+    one.left = one.left.norm() > 1e-3f ? Vector3f(one.left.normalized()) : Vector3f::Zero();
   left.y() = 0;
   if (left.norm() < 1e-3f) left = Vector3f::UnitX();
   left.normalize();
@@ -166,20 +166,16 @@ Mirroring mirroring_of(const RecordedBody& body) {
                             why.empty() ? "the shoulders are not apart; name them in a mapping file" : why));
   }
   const Motion& frames = body.frames;
-  const std::vector<UsualRotation> usual = usual_rotations(frames);
+  std::vector<UsualRotation> usual = usual_rotations(frames);
   Mirroring mirroring{.skeleton = frames.shared_skeleton(),
                       .joints = {},
                       .translations = {},
                       .carrier = body_carrier(frames.skeleton(), body.signer.rig),
                       .notices = {}};
-  set_plane(body, mirroring);
-  Quaternionf half_turn = mirroring.half_turn;  // in the space of the joint above the carrier
-  for (const JointIndex joint : joints_above(frames.skeleton(), mirroring.carrier)) {
-    half_turn = usual[at(joint)].mean.conjugate() * half_turn * usual[at(joint)].mean;
-  }
+  set_plane(body, mirroring, usual);
   const std::vector<Vector3f> places = usual_translations(frames);
   const Skeleton bones = with_real_bones(frames.skeleton(), places);
-  mirroring.joints = counterparts(bones, body.signer.rig, mirroring.carrier, half_turn, usual);
+  mirroring.joints = counterparts(bones, body.signer.rig, mirroring.carrier, usual);
   set_signs(usual, mirroring);
   for (std::size_t i = 0; i < places.size(); ++i)
     mirroring.translations.push_back(translation_of(mirroring, bones, i, places));

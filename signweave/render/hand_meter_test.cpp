@@ -47,7 +47,7 @@ TEST(HandMeter, TheDeepestFrameCounts) {
   EXPECT_EQ(meter.meeting(person.all_of(motion)).depth, deepest);
 }
 
-TEST(HandMeter, HandsCrossByTheWayOfOnePalmBeyondTheOther) {
+TEST(HandMeter, HandsCrossByTheDistanceOfOnePalmBeyondTheOther) {
   const Person person;
   HandMeter meter(*person.skeleton, person.signer);
   const auto with = [&](float right, float left) {

@@ -20,7 +20,7 @@ namespace signweave {
 
 // An arm of one clip is put on the trunk of another by copying its local rotations. The hand then keeps its place in
 // the chest, but not in front of the signer, nor at the head. The correction below gives it the place that it had in
-// its source. (signing in channels: MMS-Player only copies; ours)
+// its source. (ours)
 
 /// How much deeper a corrected hand may be inside the body than in its source. Metres.
 inline constexpr float kDepthOfHandAllowed = 0.003f;
@@ -38,7 +38,7 @@ struct PlaceCorrection {
   // mean over the stroke, in the signer's axes.
   Eigen::Vector3f shift = Eigen::Vector3f::Zero();           ///< of the middle of the palm's path, metres
   Eigen::Quaternionf turn = Eigen::Quaternionf::Identity();  ///< about that middle
-  float size_mm = 0;                                         ///< the longest way of the palm over the stroke
+  float size_mm = 0;                                         ///< the largest displacement of the palm over the stroke
   float size_degrees = 0;                                    ///< the largest turn of the hand
   float varies_mm = 0;       ///< largest distance of the corrected palm from the mean motion above: 0 unless the trunks
   float varies_degrees = 0;  ///< (or the head) move relative to each other during the stroke
@@ -80,7 +80,7 @@ class ArmPlacer {
   /// the source's and the composed pose at this frame, its weight and the correction only.
   ///
   /// Between two strokes of one clip chain, apply the earlier correction with weight 1 until the later one, applied
-  /// second, has weight 1: the hand then goes from place to place, without a detour via the place as copied. For a
+  /// second, has weight 1: the hand then goes from place to place, without a detour through the place as copied. For a
   /// correction that is `none`, the corrected place is the copied one.
   void apply(const PlaceCorrection& correction, PosesView source, std::span<const float> weights,
              MutablePoses composed);

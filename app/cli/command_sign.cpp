@@ -15,8 +15,9 @@ namespace signweave::cli {
 namespace {
 
 /// Options whose values a score has already decided. (Passed to CLI11, its help would list them all.)
-constexpr const char* kDecided[] = {"--transition", "--duration", "--tempo",   "--align",  "--handedness",
-                                    "--junction",   "--rate",     "--missing", "--explain"};
+constexpr const char* kDecided[] = {"--transition", "--duration", "--tempo",    "--align",
+                                    "--handedness", "--junction", "--rate",     "--missing",
+                                    "--explain",    "--mouthing", "--language", "--expressions"};
 
 /// "bvh" of "out.bvh", and what is written alongside.
 std::vector<std::string> extensions_of(const Delivery& delivery) {
@@ -36,6 +37,7 @@ Run sign(CLI::App& verb) {
     calls::SignCall call;
     std::string from;
     std::string frames;
+    std::string expressions;
     Delivery delivery;
   };
   auto options = std::make_shared<SignArguments>();
@@ -47,6 +49,9 @@ Run sign(CLI::App& verb) {
   verb.add_option("--from", options->from,
                   "render a score written by --score instead of an utterance: nothing is chosen again")
       ->excludes(utterance);
+  verb.add_option("--expressions", options->expressions,
+                  "a CSV file of expressions of your own (name,what,value), beside the built-in ones")
+      ->check(CLI::ExistingFile);
   const calls::Field frames = calls::frames_field();
   verb.add_option("--frames", options->frames, frames.help)->needs("--from")->check(frames.check);
   add_reports(verb, options->delivery);
@@ -55,6 +60,7 @@ Run sign(CLI::App& verb) {
     for (const char* decided : kDecided) {
       if (!options->from.empty() && verb.count(decided) > 0) throw CLI::ExcludesError("--from", decided);
     }
+    if (!options->expressions.empty()) options->call.expressions = read_expressions(options->expressions);
     std::optional<Score> score;
     if (!options->from.empty()) score = score_from_json(read_file(options->from, kLargestScore), options->from);
     const Database database(options->folder, kv::Access::read_only);

@@ -69,7 +69,16 @@ SynthesisOptions options_of(const SynthesisChoices& choices) {
 Synthesized run(const Database& database, const SignCall& call, std::int64_t most_frames) {
   SynthesisOptions options = options_of(call.how);
   options.most_frames = most_frames;
-  Utterance utterance = parse_utterance(call.utterance, words_of(database));
+  options.non_manuals.expressions = call.expressions;
+  options.non_manuals.pronounce.source = *mouthing_source(call.mouthing);
+  options.non_manuals.pronounce.language = *mouthing_language(call.language);
+  UtteranceWords words = words_of(database);
+  words.is_expression = [&](std::string_view name) {
+    return std::ranges::find(call.expressions, name, [](const NamedExpression& one) -> std::string_view {
+             return one.curve.name;
+           }) != call.expressions.end();
+  };
+  Utterance utterance = parse_utterance(call.utterance, words);
   std::vector<Notice> folded;
   if (call.missing == "fold") utterance = with_folded_glosses(utterance, *database.segments(), folded);
   Synthesized made = synthesize(database, utterance, options);

@@ -103,17 +103,22 @@ void fields(Visit& visit, SynthesisChoices& choices) {
 struct SignCall {
   std::string utterance;
   std::string missing = "explain";
+  std::string mouthing = "letters";
+  std::string language = "fr";
   SynthesisChoices how;
+  Expressions expressions = built_in_expressions();  ///< not a parameter: the command line reads them from a file
 };
 
 template <class Visit>
 void fields(Visit& visit, SignCall& call) {
-  visit(Field{.name = "utterance",
-              .help = "glosses separated by blanks; \"LE MANS\" quoted, MATIN#3 one token, \"NAME\"@1200..3400 a piece "
-                      "of a recording, , and . pauses, [A | weak: B] two hands, A{mouth \"a\"} and {brows up: A B} the face",
-              .words = "UTTERANCE",
-              .required = true},
-        call.utterance);
+  visit(
+      Field{.name = "utterance",
+            .help =
+                "glosses separated by blanks; \"LE MANS\" quoted, MATIN#3 one token, \"NAME\"@1200..3400 a piece "
+                "of a recording, , and . pauses, [A | weak: B] two hands, A{mouth \"a\"} and {brows up: A B} the face",
+            .words = "UTTERANCE",
+            .required = true},
+      call.utterance);
   visit(
       Field{.name = "missing",
             .help = "of glosses that are not there: explain and sign nothing, or fold (take the one gloss that differs "
@@ -121,6 +126,18 @@ void fields(Visit& visit, SignCall& call) {
             .shows_default = true,
             .one_of = {"explain", "fold"}},
       call.missing);
+  visit(
+      Field{.name = "mouthing",
+            .help = "how the texts to be mouthed are pronounced: letters (rules of signweave's own, the same on every "
+                    "machine), espeak (the program espeak-ng where it is installed), none (not mouthed)",
+            .shows_default = true,
+            .one_of = {"letters", "espeak", "none"}},
+      call.mouthing);
+  visit(Field{.name = "language",
+              .help = "the language of those texts",
+              .shows_default = true,
+              .one_of = {"fr", "en", "de", "nl"}},
+        call.language);
   fields(visit, call.how);
 }
 

@@ -306,6 +306,7 @@ Synthesis compose(const std::vector<MotionClip>& clips, const ChannelParts& part
   const JointSetup setup(all, options);
   Composer composer(std::move(all), clips.size(), parts, setup.settings, options);
   Score score = composer.score(source_of(clips.at(options.reference)));
+  if (options.author) score.curves = options.author(score);
   place_hands(score, composer.clips(), clips.size(), setup.settings);
   check(score, "score");
   Synthesis out;

@@ -120,6 +120,7 @@ Synthesis concatenate(const std::vector<MotionClip>& clips, const ConcatenateOpt
   std::vector<ScalarTrack> fetched = fetch(plan, settings, out.motion);
   stand(plan, out.motion, options);
   Score score = score_of(plan, settings, source_of(reference));
+  if (options.author) plan.curves = score.curves = options.author(score);
   Renderer renderer(std::move(plan), settings);
   render(std::move(score), renderer, clips, std::move(fetched), out);
   return out;

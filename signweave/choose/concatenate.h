@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 #include <utility>
@@ -30,6 +31,8 @@ struct ConcatenateOptions {
   FrameRate rate{0, 1};            ///< of the output; 0: the highest rate of the sources
   Alignment alignment = Alignment::automatic;
   std::int64_t most_frames = kMostFrames;  ///< longer results are rejected before a frame is read
+  /// If given, called with the score once all times are known; returns what is shown over it.
+  std::function<std::vector<AuthoredCurve>(const Score&)> author;
   std::size_t reference = 0;  ///< the clip that defines skeleton and standing: in an edit, one of the edited recording
 };
 

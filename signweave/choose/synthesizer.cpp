@@ -39,6 +39,7 @@ struct Wanted {
   std::vector<ChannelHold> holds = {};             ///< between places
   std::set<std::size_t> borders = {};              ///< places at which parts begin or end
   std::vector<std::optional<Side>> dominant = {};  ///< [place]; empty: as for all
+  const Utterance* utterance = nullptr;            ///< null: an edit
 };
 
 /// If the junction between neighbours is named, its transition is generated, because options were given for it. At
@@ -201,6 +202,12 @@ Synthesized run(const Snapshot& snapshot, Wanted wanted, std::string_view edited
       }
     }
   }
+  std::function<std::vector<AuthoredCurve>(const Score&)> author;
+  if (wanted.utterance != nullptr && !wanted.utterance->non_manuals.empty()) {
+    author = [&](const Score& score) {
+      return author_non_manuals(*wanted.utterance, score, options.non_manuals, notices);
+    };
+  }
   for (std::size_t i = body; i < clips.size(); ++i) composed.parts.clips[i - body].clip = std::move(clips[i]);
   clips.resize(body);
   made.result = compose(clips, composed.parts,
@@ -212,6 +219,7 @@ Synthesized run(const Snapshot& snapshot, Wanted wanted, std::string_view edited
                          .rate = options.rate.value_or(FrameRate{0, 1}),
                          .alignment = options.alignment,
                          .most_frames = options.most_frames,
+                         .author = author,
                          .reference = reference},
                         std::move(used));
   made.result.notices = std::move(notices);
@@ -289,7 +297,8 @@ Synthesized synthesize(const Database& database, const Utterance& utterance, con
   Wanted wanted{.choices = {},
                 .parts = part_choices(snapshot.contents(), utterance, dominant),
                 .holds = channel_holds(utterance, dominant),
-                .borders = clip_borders(utterance)};
+                .borders = clip_borders(utterance),
+                .utterance = &utterance};
   for (const Place& place : utterance.places) {
     wanted.choices.push_back({candidates_for(snapshot.contents(), place), place.pause_before});
     wanted.dominant.push_back(place.dominant);

@@ -8,6 +8,7 @@
 #include "signweave/choose/concatenate.h"
 #include "signweave/choose/durations.h"
 #include "signweave/choose/edit.h"
+#include "signweave/choose/non_manuals.h"
 #include "signweave/choose/open_score.h"
 #include "signweave/choose/select.h"
 #include "signweave/core/time.h"
@@ -27,6 +28,7 @@ struct SynthesisOptions {
   Alignment alignment = Alignment::automatic;
   std::int64_t most_frames = kMostFrames;  ///< longer results are rejected before a frame is read
   bool explain = false;                    ///< fill Selection::explained
+  NonManualOptions non_manuals;
 };
 
 /// Throws Error{bad_input} if an option is out of range. Junction numbers that are too high are reported later, once

@@ -59,7 +59,7 @@ Curve brow(float weight) {
 /// A curve of every kind.
 std::vector<Curve> all_kinds() {
   std::vector<Curve> all;
-  for (const Expression& one : built_in_expressions()) all.push_back(one.curve);
+  for (const NamedExpression& one : built_in_expressions()) all.push_back(one.curve);
   all.push_back(gaze_at({.yaw = 30, .pitch = -10}, "gaze"));
   all.push_back(mouthing_over("papa", phones_of_ipa("papaʃysi"), {100ms, 700ms}).curve);
   return all;

@@ -17,8 +17,8 @@ struct Weight {
   float weight;
 };
 
-Expression expression(std::string_view name, std::initializer_list<Weight> weights, HeadMovement head = {}) {
-  Expression result;
+NamedExpression expression(std::string_view name, std::initializer_list<Weight> weights, HeadMovement head = {}) {
+  NamedExpression result;
   result.curve.name = name;
   for (const Weight& one : weights) {
     if (one.track.ends_with('@')) {
@@ -41,8 +41,8 @@ HeadMovement swinging(HeadAngles swing, float hertz) {
 }
 
 /// Not as long as the signs that it accompanies: one blink at their end.
-Expression blink(std::string_view name) {
-  Expression result = expression(name, {{"eyeBlink@", 1}});
+NamedExpression blink(std::string_view name) {
+  NamedExpression result = expression(name, {{"eyeBlink@", 1}});
   result.curve.onset = Milliseconds(80);
   result.curve.offset = Milliseconds(150);
   result.begin = -result.curve.onset;
@@ -115,10 +115,10 @@ const Expressions& built_in_expressions() {
   return all;
 }
 
-const Expression& find_expression(const Expressions& all, std::string_view name) {
+const NamedExpression& find_expression(const Expressions& all, std::string_view name) {
   const std::string wanted = match_form(name);
   std::vector<std::string> known;
-  for (const Expression& one : all) {
+  for (const NamedExpression& one : all) {
     if (one.curve.name == wanted) return one;
     known.push_back(one.curve.name);
   }
@@ -127,7 +127,7 @@ const Expression& find_expression(const Expressions& all, std::string_view name)
                                                 hint.empty() ? "; docs/non-manuals.md lists them" : hint));
 }
 
-TimedCurve over(const Expression& expression, TimeSpan strokes, Milliseconds begin, Milliseconds end) {
+TimedCurve over(const NamedExpression& expression, TimeSpan strokes, Milliseconds begin, Milliseconds end) {
   TimeSpan at{(expression.at_end ? strokes.end : strokes.begin) + expression.begin + begin,
               strokes.end + expression.end + end};
   at.end = std::max(at.end, at.begin + std::max(expression.curve.onset + expression.curve.offset, Milliseconds(1)));

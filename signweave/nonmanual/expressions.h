@@ -16,14 +16,14 @@ inline constexpr Milliseconds kMarkerBegin{-80};
 inline constexpr Milliseconds kMarkerEnd{22};
 
 /// A named movement, and when it begins and ends relative to what it accompanies.
-struct Expression {
+struct NamedExpression {
   Curve curve;                        ///< its name is the expression's
   Milliseconds begin = kMarkerBegin;  ///< from the begin of the first stroke, or from the end of the last
   Milliseconds end = kMarkerEnd;      ///< from the end of the last stroke
   bool at_end = false;                ///< `begin` counts from the end of the last stroke, as for a blink
-  friend bool operator==(const Expression&, const Expression&) = default;
+  friend bool operator==(const NamedExpression&, const NamedExpression&) = default;
 };
-using Expressions = std::vector<Expression>;  ///< each name once
+using Expressions = std::vector<NamedExpression>;  ///< each name once
 
 /// The built-in expressions (docs/non-manuals.md).
 const Expressions& built_in_expressions();
@@ -40,11 +40,11 @@ Expressions read_expressions_text(const std::string& file, std::string_view text
 
 /// The expression of a name, compared in Unicode NFC. Throws Error{not_found, "there is no expression 'brow up'; did
 /// you mean brows up?"}.
-const Expression& find_expression(const Expressions& all, std::string_view name);
+const NamedExpression& find_expression(const Expressions& all, std::string_view name);
 
 /// The expression over signs, whose strokes are in `strokes`; `begin` and `end` are added to its own. It is at
 /// least as long as onset and offset together.
-TimedCurve over(const Expression& expression, TimeSpan strokes, Milliseconds begin = Milliseconds(0),
+TimedCurve over(const NamedExpression& expression, TimeSpan strokes, Milliseconds begin = Milliseconds(0),
                 Milliseconds end = Milliseconds(0));
 
 }  // namespace signweave

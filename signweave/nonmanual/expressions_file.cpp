@@ -37,16 +37,16 @@ constexpr NumberSetting kNumberSettings[] = {
 /// A setting that is a time.
 struct TimeSetting {
   std::string_view name;
-  Milliseconds& (*of)(Expression& expression);
+  Milliseconds& (*of)(NamedExpression& expression);
 };
 constexpr TimeSetting kTimeSettings[] = {
-    {"begin_ms", [](Expression& one) -> Milliseconds& { return one.begin; }},
-    {"end_ms", [](Expression& one) -> Milliseconds& { return one.end; }},
-    {"onset_ms", [](Expression& one) -> Milliseconds& { return one.curve.onset; }},
-    {"offset_ms", [](Expression& one) -> Milliseconds& { return one.curve.offset; }},
-    {"head_delay_ms", [](Expression& one) -> Milliseconds& { return one.curve.head.delay; }},
-    {"head_onset_ms", [](Expression& one) -> Milliseconds& { return one.curve.head.onset; }},
-    {"head_offset_ms", [](Expression& one) -> Milliseconds& { return one.curve.head.offset; }},
+    {"begin_ms", [](NamedExpression& one) -> Milliseconds& { return one.begin; }},
+    {"end_ms", [](NamedExpression& one) -> Milliseconds& { return one.end; }},
+    {"onset_ms", [](NamedExpression& one) -> Milliseconds& { return one.curve.onset; }},
+    {"offset_ms", [](NamedExpression& one) -> Milliseconds& { return one.curve.offset; }},
+    {"head_delay_ms", [](NamedExpression& one) -> Milliseconds& { return one.curve.head.delay; }},
+    {"head_onset_ms", [](NamedExpression& one) -> Milliseconds& { return one.curve.head.onset; }},
+    {"head_offset_ms", [](NamedExpression& one) -> Milliseconds& { return one.curve.head.offset; }},
 };
 
 std::optional<double> plain_number(std::string_view text) {
@@ -88,8 +88,8 @@ class ExpressionFile {
         trimmed(std::string_view(line).substr(second + 1)));
   }
 
-  Expression& expression_of(const std::string& name) {
-    const auto at = std::ranges::find(all_, name, [](const Expression& one) { return one.curve.name; });
+  NamedExpression& expression_of(const std::string& name) {
+    const auto at = std::ranges::find(all_, name, [](const NamedExpression& one) { return one.curve.name; });
     if (at != all_.end()) return *at;
     if (all_.size() == kMostExpressions) {
       reader_.fail(fmt::format("more than {} expressions; remove some", kMostExpressions));
@@ -98,7 +98,7 @@ class ExpressionFile {
     return all_.back();
   }
 
-  void set(Expression& one, std::string_view what, std::string_view value) {
+  void set(NamedExpression& one, std::string_view what, std::string_view value) {
     if (what == "merge") return set_merge(one, value);
     const std::optional<double> number = plain_number(value);
     if (!number) reader_.fail(fmt::format("expected a number for {}, found '{}'", printable(what), printable(value)));
@@ -114,7 +114,7 @@ class ExpressionFile {
     check(one.curve, fmt::format("{}:{}", reader_.name(), reader_.line()));
   }
 
-  bool set_time(Expression& one, std::string_view what, double number) {
+  bool set_time(NamedExpression& one, std::string_view what, double number) {
     for (const TimeSetting& setting : kTimeSettings) {
       if (setting.name != what) continue;
       if (!(number >= -kMostMilliseconds && number <= kMostMilliseconds)) {
@@ -127,7 +127,7 @@ class ExpressionFile {
     return false;
   }
 
-  static bool set_number(Expression& one, std::string_view what, double number) {
+  static bool set_number(NamedExpression& one, std::string_view what, double number) {
     for (const NumberSetting& setting : kNumberSettings) {
       if (setting.name != what) continue;
       setting.of(one.curve) = static_cast<float>(number);
@@ -136,7 +136,7 @@ class ExpressionFile {
     return false;
   }
 
-  void set_merge(Expression& one, std::string_view value) {
+  void set_merge(NamedExpression& one, std::string_view value) {
     for (const Merge merge : {Merge::usual, Merge::maximum, Merge::sum, Merge::replace}) {
       if (name_of(merge) == value) {
         one.curve.merge = merge;
@@ -164,8 +164,9 @@ class ExpressionFile {
 
 Expressions with_built_in(Expressions own) {
   Expressions all = built_in_expressions();
-  for (Expression& one : own) {
-    const auto same = std::ranges::find(all, one.curve.name, [](const Expression& other) { return other.curve.name; });
+  for (NamedExpression& one : own) {
+    const auto same =
+        std::ranges::find(all, one.curve.name, [](const NamedExpression& other) { return other.curve.name; });
     if (same != all.end()) {
       *same = std::move(one);
     } else {

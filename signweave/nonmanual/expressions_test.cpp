@@ -26,7 +26,7 @@ std::string fault_of(std::string_view text) {
 
 TEST(Expressions, HaveUniqueNamesAndValidCurves) {
   std::set<std::string> names;
-  for (const Expression& one : built_in_expressions()) {
+  for (const NamedExpression& one : built_in_expressions()) {
     EXPECT_TRUE(names.insert(one.curve.name).second) << one.curve.name;
     EXPECT_NO_THROW(check(one.curve, "built-in"));
     EXPECT_TRUE(!one.curve.weights.empty() || one.curve.head.moves()) << one.curve.name;
@@ -45,11 +45,11 @@ TEST(Expressions, AreFoundByNameAndNearNamesAreOffered) {
 }
 
 TEST(Expressions, CoverTheSignsAsMeasured) {
-  const Expression& up = find_expression(built_in_expressions(), "brows up");
+  const NamedExpression& up = find_expression(built_in_expressions(), "brows up");
   EXPECT_EQ(over(up, {1000ms, 2000ms}).at, (TimeSpan{920ms, 2022ms}));
   EXPECT_EQ(over(up, {1000ms, 2000ms}, -50ms, 100ms).at, (TimeSpan{870ms, 2122ms}));
   EXPECT_EQ(over(up, {1000ms, 1010ms}).at.duration(), 360ms);
-  const Expression& blink = find_expression(built_in_expressions(), "blink");
+  const NamedExpression& blink = find_expression(built_in_expressions(), "blink");
   EXPECT_EQ(over(blink, {1000ms, 2000ms}).at, (TimeSpan{1920ms, 2150ms}));
 }
 
@@ -64,7 +64,7 @@ TEST(ExpressionFile, AddsAndReplaces) {
                                                 "doute,onset_ms,90\n"
                                                 "doute,begin_ms,-200\n"
                                                 "doute,merge,sum\n");
-  const Expression& doubt = find_expression(all, "doute");
+  const NamedExpression& doubt = find_expression(all, "doute");
   EXPECT_EQ(doubt.curve.weights, (std::vector<TrackWeight>{{"browDownLeft", 0.5f}}));
   EXPECT_EQ(doubt.curve.head.turn.roll, -7);
   EXPECT_EQ(doubt.curve.head.hertz, 1.5f);
@@ -141,7 +141,7 @@ TEST(Documentation, ListsEveryExpressionWithItsValues) {
   std::ifstream file(SIGNWEAVE_SOURCE_DIR "/docs/non-manuals.md");
   std::stringstream text;
   text << file.rdbuf();
-  for (const Expression& one : built_in_expressions()) {
+  for (const NamedExpression& one : built_in_expressions()) {
     EXPECT_THAT(text.str(), HasSubstr("| `" + one.curve.name + "` | " + printed(one.curve) + " |"));
   }
   for (const NamedGaze& one : named_gazes()) EXPECT_THAT(text.str(), HasSubstr("`" + std::string(one.name) + "`"));

@@ -168,6 +168,66 @@ void fields(Visit& visit, const JunctionRef& junction) {
 }
 
 template <class Visit>
+void fields(Visit& visit, const TrackWeight& one) {
+  visit.type("ScoreTrackWeight");
+  visit(AnswerField{.name = "track", .help = "an ARKit name"}, one.track);
+  visit(AnswerField{.name = "weight"}, one.weight);
+}
+
+template <class Visit>
+void fields(Visit& visit, const HeadAngles& angles) {
+  visit.type("ScoreHeadAngles", "degrees: up, to the signer's left, tilted to the signer's left");
+  visit(AnswerField{.name = "pitch"}, angles.pitch);
+  visit(AnswerField{.name = "yaw"}, angles.yaw);
+  visit(AnswerField{.name = "roll"}, angles.roll);
+}
+
+template <class Visit>
+void fields(Visit& visit, const HeadMovement& head) {
+  visit.type("ScoreHeadMovement");
+  visit(AnswerField{.name = "turn"}, head.turn);
+  visit(AnswerField{.name = "swing", .help = "the amplitude of an oscillation about it"}, head.swing);
+  visit(AnswerField{.name = "hertz"}, head.hertz);
+  visit(AnswerField{.name = "delay_ms"}, head.delay.count());
+  visit(AnswerField{.name = "onset_ms"}, head.onset.count());
+  visit(AnswerField{.name = "offset_ms"}, head.offset.count());
+}
+
+template <class Visit>
+void fields(Visit& visit, const MouthKey& key) {
+  visit.type("ScoreMouthKey");
+  visit(AnswerField{.name = "viseme"}, name_of(key.viseme));
+  visit(AnswerField{.name = "at_ms", .help = "from the begin of the curve"}, key.at.count());
+  visit(AnswerField{.name = "held_ms"}, key.held.count());
+  visit(AnswerField{.name = "strength"}, key.strength);
+}
+
+template <class Visit>
+void fields(Visit& visit, const GazeDirection& gaze) {
+  visit.type("ScoreGaze", "degrees: to the signer's left, up");
+  visit(AnswerField{.name = "yaw"}, gaze.yaw);
+  visit(AnswerField{.name = "pitch"}, gaze.pitch);
+}
+
+template <class Visit>
+void fields(Visit& visit, const AuthoredCurve& one) {
+  const Curve& curve = one.curve;
+  visit.type("ScoreCurve", "an authored movement of face, gaze or head over captured motion");
+  visit(AnswerField{.name = "name"}, curve.name);
+  visit(AnswerField{.name = "at", .help = "output frames"}, pair_of(one.at));
+  visit(AnswerField{.name = "places", .help = "the first and the last that it accompanies, from 0"},
+        NumberPair{static_cast<std::int64_t>(one.first), static_cast<std::int64_t>(one.last)});
+  visit(AnswerField{.name = "onset_ms"}, curve.onset.count());
+  visit(AnswerField{.name = "offset_ms"}, curve.offset.count());
+  visit(AnswerField{.name = "amount"}, curve.amount);
+  visit(AnswerField{.name = "merge", .one_of = {"usual", "maximum", "sum", "replace"}}, name_of(curve.merge));
+  visit(AnswerField{.name = "weights"}, curve.weights);
+  visit(AnswerField{.name = "head"}, given_if(curve.head.moves(), curve.head));
+  visit(AnswerField{.name = "mouth"}, given_if(!curve.mouth.empty(), curve.mouth));
+  visit(AnswerField{.name = "gaze"}, given_if(curve.gaze.has_value(), curve.gaze.value_or(GazeDirection())));
+}
+
+template <class Visit>
 void fields(Visit& visit, const Score& score) {
   visit.type("Score");
   visit(AnswerField{.name = "signweave_score", .help = "the version of the format", .minimum = 1}, version_of(score));
@@ -178,6 +238,7 @@ void fields(Visit& visit, const Score& score) {
   visit(AnswerField{.name = "clips"}, score.clips);
   visit(AnswerField{.name = "junctions"}, score.junctions);
   visit(AnswerField{.name = "lanes"}, score.lanes);
+  visit(AnswerField{.name = "curves", .help = "missing: none"}, given_if(!score.curves.empty(), score.curves));
 }
 
 }  // namespace signweave

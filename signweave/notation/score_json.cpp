@@ -196,6 +196,63 @@ Clip clip_from(const Value& value) {
   return clip;
 }
 
+Milliseconds time_from(const Value& value) {
+  const std::int64_t ms = value.whole();
+  if (ms < -86'400'000 || ms > 86'400'000) value.fail("a time of at most a day, in milliseconds");
+  return Milliseconds(ms);
+}
+
+HeadAngles angles_from(const Value& value) {
+  return {static_cast<float>(value["pitch"].number()), static_cast<float>(value["yaw"].number()),
+          static_cast<float>(value["roll"].number())};
+}
+
+AuthoredCurve curve_from(const Value& value) {
+  constexpr std::array kMerges = {Merge::usual, Merge::maximum, Merge::sum, Merge::replace};
+  const Value places = value["places"];
+  if (places.size() != 2) places.fail("a list of two places");
+  AuthoredCurve one{.curve = {},
+                    .at = value["at"].frames(),
+                    .first = places.at(0).count<std::size_t>(),
+                    .last = places.at(1).count<std::size_t>()};
+  Curve& curve = one.curve;
+  curve.name = value["name"].text();
+  curve.onset = time_from(value["onset_ms"]);
+  curve.offset = time_from(value["offset_ms"]);
+  curve.amount = static_cast<float>(value["amount"].number());
+  curve.merge = value["merge"].one_of(kMerges);
+  const Value weights = value["weights"];
+  for (std::size_t i = 0; i < weights.size(); ++i) {
+    curve.weights.push_back({weights.at(i)["track"].text(), static_cast<float>(weights.at(i)["weight"].number())});
+  }
+  if (value.has("head")) {
+    const Value head = value["head"];
+    curve.head = {.turn = angles_from(head["turn"]),
+                  .swing = angles_from(head["swing"]),
+                  .hertz = static_cast<float>(head["hertz"].number()),
+                  .delay = time_from(head["delay_ms"]),
+                  .onset = time_from(head["onset_ms"]),
+                  .offset = time_from(head["offset_ms"])};
+  }
+  if (value.has("mouth")) {
+    const Value mouth = value["mouth"];
+    for (std::size_t i = 0; i < mouth.size(); ++i) {
+      const Value key = mouth.at(i);
+      const std::optional<Viseme> viseme = viseme_named(key["viseme"].text());
+      if (!viseme) key["viseme"].fail("a viseme, such as PP or aa");
+      curve.mouth.push_back({.viseme = *viseme,
+                             .at = time_from(key["at_ms"]),
+                             .held = time_from(key["held_ms"]),
+                             .strength = static_cast<float>(key["strength"].number())});
+    }
+  }
+  if (value.has("gaze")) {
+    curve.gaze = GazeDirection{static_cast<float>(value["gaze"]["yaw"].number()),
+                               static_cast<float>(value["gaze"]["pitch"].number())};
+  }
+  return one;
+}
+
 Item item_from(const Value& value) {
   Item item{.what = {}, .at = value["at"].frames()};
   if (value.has("clip")) {
@@ -227,7 +284,7 @@ int version_of(const Score& score) noexcept {
   const bool has_holds = std::ranges::any_of(score.lanes, [](const Lane& lane) {
     return std::ranges::any_of(lane.items, [](const Item& item) { return std::holds_alternative<Hold>(item.what); });
   });
-  return has_parts || has_holds ? 2 : 1;
+  return has_parts || has_holds || !score.curves.empty() ? 2 : 1;
 }
 
 std::string text_of_fingerprint(std::uint64_t fingerprint) {
@@ -273,7 +330,8 @@ Score score_from_json(std::string_view text, const std::string& file) {
               .frames = all["frames"].whole(),
               .clips = {},
               .junctions = {},
-              .lanes = {}};
+              .lanes = {},
+              .curves = {}};
   if (all["rate"].size() != 2) all["rate"].fail("a list of two numbers, frames and seconds");
   score.rate = {all["rate"].at(0).whole(), all["rate"].at(1).whole()};
   const Value clips = all["clips"];
@@ -289,6 +347,10 @@ Score score_from_json(std::string_view text, const std::string& file) {
     const Value items = lanes.at(i)["items"];
     for (std::size_t k = 0; k < items.size(); ++k) lane.items.push_back(item_from(items.at(k)));
     score.lanes.push_back(std::move(lane));
+  }
+  if (all.has("curves")) {
+    const Value curves = all["curves"];
+    for (std::size_t i = 0; i < curves.size(); ++i) score.curves.push_back(curve_from(curves.at(i)));
   }
   check(score, file);
   return score;

@@ -79,6 +79,7 @@ class Planner {
 
   Plan plan() const {
     Plan plan = of_body();
+    plan.curves = score_.curves;
     for (std::size_t lane = 0; lane < chains_.size(); ++lane) {
       const Channel channel = score_.lanes[lane].channel;
       check_positions(lane);
@@ -295,8 +296,13 @@ Clip clip_of(const PlacedClip& placed, ClipId id) {
 }
 
 Score score_of(const Plan& plan, const JunctionSettings& settings, const SourceRef& skeleton) {
-  Score score{
-      .skeleton = skeleton, .rate = settings.rate, .frames = plan.frames, .clips = {}, .junctions = {}, .lanes = {}};
+  Score score{.skeleton = skeleton,
+              .rate = settings.rate,
+              .frames = plan.frames,
+              .clips = {},
+              .junctions = {},
+              .lanes = {},
+              .curves = plan.curves};
   for (std::size_t i = 0; i < plan.placed.size(); ++i) {
     const PlacedClip& placed = plan.placed[i];
     const MotionClip& clip = *placed.captured;

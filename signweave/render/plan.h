@@ -22,6 +22,7 @@ struct Plan {
   std::vector<PlacedClip> placed;  ///< of the whole body
   std::vector<JunctionCuts> cuts;  ///< [clip − 1]
   std::int64_t frames = 0;
+  std::vector<AuthoredCurve> curves;                    ///< as in Score
   std::vector<LaneRun> runs;                            ///< by Channel, then in time order
   std::vector<std::shared_ptr<const MotionClip>> held;  ///< owns the clips in `placed` of which poses are held
 };

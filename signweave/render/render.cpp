@@ -10,6 +10,7 @@
 
 #include "signweave/core/error.h"
 #include "signweave/render/carry_tracks.h"
+#include "signweave/render/curve_renderer.h"
 #include "signweave/render/lane_renderer.h"
 #include "signweave/render/window.h"
 #include "signweave/score/place_signs.h"
@@ -129,6 +130,12 @@ void copy(const Motion& made, std::int64_t from, FrameRange frames, Motion& out)
 Renderer::Renderer(Plan plan, const JunctionSettings& settings, Tracks tracks)
     : plan_(std::move(plan)), settings_(settings), filler_(settings) {
   if (tracks == Tracks::shown) tracks_ = tracks_of(plan_.placed);
+  if (tracks == Tracks::shown && !plan_.curves.empty()) {
+    curves_ = std::make_unique<CurveRenderer>(plan_.curves, settings_);
+    for (std::string& name : curves_->tracks()) {
+      if (std::ranges::find(tracks_, name) == tracks_.end()) tracks_.push_back(std::move(name));
+    }
+  }
   if (!plan_.runs.empty()) lanes_ = std::make_unique<LaneRenderer>(plan_.runs, settings_);
 }
 
@@ -185,7 +192,13 @@ const JointSigns& Renderer::turned_in(std::size_t clip) {
 
 void Renderer::render(FrameRange frames, Motion& out) {
   render_body(frames, out);
-  if (lanes_) lanes_->apply({out, frames.begin}, [&](FrameRange other, Motion& body) { render_body(other, body); });
+  show_over({out, frames.begin});
+}
+
+/// Shows what lanes and curves add to the whole body.
+void Renderer::show_over(OutputWindow window) {
+  if (lanes_) lanes_->apply(window, [&](FrameRange other, Motion& body) { render_body(other, body); });
+  if (curves_) curves_->apply(window);
 }
 
 void Renderer::render_body(FrameRange frames, Motion& out) {
@@ -217,7 +230,7 @@ std::vector<FoundPlace> Renderer::find_places(ClipId first) {
 
 void Renderer::render_fetched(Motion& out, std::vector<ScalarTrack> used) {
   join_section({.first = 0, .last = plan_.placed.size() - 1, .frames = {0, plan_.frames}}, {out}, std::move(used));
-  if (lanes_) lanes_->apply({out}, [&](FrameRange other, Motion& body) { render_body(other, body); });
+  show_over({out});
 }
 
 void Renderer::join_section(const Section& section, OutputWindow window, std::vector<ScalarTrack> used) {

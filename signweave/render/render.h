@@ -12,6 +12,7 @@
 
 namespace signweave {
 
+class CurveRenderer;
 class LaneRenderer;
 
 /// The corrected place of the hand of a clip that only the lane of an arm shows.
@@ -52,15 +53,17 @@ class Renderer {
   };
   Section section_with(FrameRange frames) const;
   void render_body(FrameRange frames, Motion& out);
+  void show_over(OutputWindow window);
   const JointSigns& turned_in(std::size_t clip);
   void join_section(const Section& section, OutputWindow window, std::vector<ScalarTrack> used);
 
   Plan plan_;
   JunctionSettings settings_;
   JunctionFiller filler_;
-  std::unique_ptr<LaneRenderer> lanes_;  ///< of the plan's runs; null: there are none
-  std::vector<std::string> tracks_;      ///< names of the tracks of all clips
-  std::vector<JointSigns> turned_;       ///< [clip] as far as computed
+  std::unique_ptr<LaneRenderer> lanes_;    ///< of the plan's runs; null: there are none
+  std::unique_ptr<CurveRenderer> curves_;  ///< null: there are none
+  std::vector<std::string> tracks_;        ///< names of the tracks of all clips and curves
+  std::vector<JointSigns> turned_;         ///< [clip] as far as computed
   JunctionScratch scratch_;
   Motion window_;
 };

@@ -185,6 +185,16 @@ struct Checker {
     for (std::size_t i = 0; i < shown.size(); ++i) require(shown[i], "no lane shows clip {}", i);
   }
 
+  void curves() const {
+    for (std::size_t i = 0; i < score.curves.size(); ++i) {
+      const AuthoredCurve& one = score.curves[i];
+      require(one.at.begin >= 0 && one.at.begin < one.at.end && one.at.end <= score.frames && one.first <= one.last,
+              "curve {} is at frames {} to {} of {}, of places {} to {}", i, one.at.begin, one.at.end, score.frames,
+              one.first, one.last);
+      check(one.curve, fmt::format("{}: curve {}", where, i));
+    }
+  }
+
   /// The body and both arms of a junction that all of them have.
   void junctions() const {
     using Pair = std::pair<ClipId, ClipId>;
@@ -331,6 +341,7 @@ void check(const Score& score, const std::string& where) {
   }
   checker.lanes();
   checker.junctions();
+  checker.curves();
 }
 
 std::string to_string(const Score& score) {
@@ -355,6 +366,9 @@ std::string to_string(const Score& score) {
                         clip.core.begin, clip.core.end,
                         clip.step == 1 ? "" : fmt::format(", {:.4g} frames a frame", clip.step),
                         i < body ? "" : ", " + lanes_with(score, clip.id));
+  }
+  for (const AuthoredCurve& one : score.curves) {
+    text += fmt::format("{:>8}  {} until {}\n", one.at.begin, printable(one.curve.name), one.at.end);
   }
   for (const Lane& lane : score.lanes) {
     for (const Item& item : lane.items) {

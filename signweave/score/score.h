@@ -12,6 +12,7 @@
 #include "signweave/annotation/sign.h"
 #include "signweave/core/time.h"
 #include "signweave/motion/blend.h"
+#include "signweave/nonmanual/curve.h"
 #include "signweave/score/hand_place.h"
 #include "signweave/score/transition.h"
 
@@ -118,6 +119,15 @@ struct JunctionRef {
   friend bool operator==(const JunctionRef&, const JunctionRef&) = default;
 };
 
+/// An authored movement of face, gaze or head over captured motion.
+struct AuthoredCurve {
+  Curve curve;
+  FrameRange at;          ///< output frames; not empty
+  std::size_t first = 0;  ///< the first place that it accompanies, from 0
+  std::size_t last = 0;   ///< inclusive
+  friend bool operator==(const AuthoredCurve&, const AuthoredCurve&) = default;
+};
+
 struct Score {
   SourceRef skeleton;  ///< the recording that defines the output's joints
   FrameRate rate;
@@ -126,6 +136,8 @@ struct Score {
   std::vector<Clip> clips;
   std::vector<JunctionRef> junctions;  ///< [clip − 1]; not used if no transition leads to the clip
   std::vector<Lane> lanes;             ///< [Channel] of kChannels, then those of kPartChannels that differ
+  /// Shown over what the lanes show: later ones over earlier ones, of which they may cover the same frames.
+  std::vector<AuthoredCurve> curves;
   friend bool operator==(const Score&, const Score&) = default;
 };
 

@@ -1,0 +1,98 @@
+#include "signweave/choose/non_manuals.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "signweave/nonmanual/gaze.h"
+#include "signweave/nonmanual/mouthing/mouthing.h"
+
+namespace signweave {
+namespace {
+
+/// The time of a place in the output.
+struct PlaceTime {
+  Milliseconds preparation{0};  ///< begin of its preparation
+  TimeSpan stroke;
+};
+
+/// The times of the places of a score, [place].
+class PlaceTimes {
+ public:
+  explicit PlaceTimes(const Score& score) : score_(score) {}
+
+  PlaceTime at(std::size_t place) const {
+    const std::size_t body = body_clips(score_);
+    std::size_t found = 0;
+    while (found + 1 < body && score_.clips[found + 1].place <= place) ++found;
+    const Clip& clip = score_.clips[found];
+    PlaceTime time{.preparation = ms(clip.at.begin), .stroke = {ms(clip.at.begin), ms(clip.at.end)}};
+    const auto sign = std::ranges::find(clip.sign_places, place);
+    if (sign == clip.sign_places.end()) return time;
+    const Sign& of_place = clip.signs[static_cast<std::size_t>(sign - clip.sign_places.begin())];
+    if (const std::optional<TimeSpan> stroke = of_place.stroke_span()) {
+      time.stroke = {std::clamp(output(clip, stroke->begin), ms(clip.at.begin), ms(clip.at.end)),
+                     std::clamp(output(clip, stroke->end), ms(clip.at.begin), ms(clip.at.end))};
+    }
+    time.preparation = std::min(time.stroke.begin, output(clip, of_place.span.begin));
+    return time;
+  }
+
+  Milliseconds ms(double frame) const { return Milliseconds(std::llround(frame * 1000.0 / score_.rate.hertz())); }
+  Milliseconds ms(std::int64_t frame) const { return ms(static_cast<double>(frame)); }
+  /// The frames of a time, inside the score and not empty.
+  FrameRange frames(TimeSpan span) const {
+    const auto frame = [&](Milliseconds time) {
+      return std::llround(static_cast<double>(time.count()) * score_.rate.hertz() / 1000.0);
+    };
+    const std::int64_t begin = std::clamp<std::int64_t>(frame(span.begin), 0, score_.frames - 1);
+    return {begin, std::clamp<std::int64_t>(frame(span.end), begin + 1, score_.frames)};
+  }
+
+ private:
+  Milliseconds output(const Clip& clip, Milliseconds recorded) const {
+    const double frame = clip.clock.frame_at(recorded) - static_cast<double>(clip.core.begin);
+    return ms(static_cast<double>(clip.at.begin) + frame / clip.step);
+  }
+
+  const Score& score_;
+};
+
+TimedCurve curve_of(const NonManual& one, const PlaceTime& first, const PlaceTime& last,
+                    const NonManualOptions& options, Pronouncer& pronouncer, std::vector<Notice>& notices) {
+  const TimeSpan strokes{first.stroke.begin, last.stroke.end};
+  switch (one.kind) {
+    case NonManual::Kind::expression:
+      return over(find_expression(options.expressions, one.what), strokes, one.begin, one.end);
+    case NonManual::Kind::mouthing: {
+      Pronunciation spoken = pronouncer.pronounce(one.what, fmt::format("mouth \"{}\"", one.what));
+      notices.insert(notices.end(), spoken.notices.begin(), spoken.notices.end());
+      return mouthing_over(one.what, spoken.phones, {strokes.begin + one.begin, strokes.end + one.end});
+    }
+    case NonManual::Kind::gaze: {
+      const TimeSpan span = gaze_span(first.preparation, last.stroke.end);
+      return {gaze_at(find_gaze(one.what), one.what), {span.begin + one.begin, span.end + one.end}};
+    }
+  }
+  return {};
+}
+
+}  // namespace
+
+std::vector<AuthoredCurve> author_non_manuals(const Utterance& utterance, const Score& score,
+                                              const NonManualOptions& options, std::vector<Notice>& notices) {
+  const PlaceTimes times(score);
+  Pronouncer pronouncer(options.pronounce);
+  std::vector<AuthoredCurve> curves;
+  for (const NonManual& one : utterance.non_manuals) {
+    TimedCurve made = curve_of(one, times.at(one.first), times.at(one.last), options, pronouncer, notices);
+    if (tracks_of(made.curve).empty() && !made.curve.head.moves()) continue;  // nothing to be seen, such as no sounds
+    curves.push_back(
+        {.curve = std::move(made.curve), .at = times.frames(made.at), .first = one.first, .last = one.last});
+  }
+  return curves;
+}
+
+}  // namespace signweave

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <vector>
+
+#include "signweave/core/error.h"
+#include "signweave/nonmanual/expressions.h"
+#include "signweave/nonmanual/mouthing/pronounce.h"
+#include "signweave/notation/utterance.h"
+#include "signweave/score/score.h"
+
+namespace signweave {
+
+/// How movements of the face, the gaze and the head are made from an utterance.
+struct NonManualOptions {
+  Expressions expressions = built_in_expressions();
+  PronounceOptions pronounce;
+};
+
+/// The curves of an utterance's non-manuals in a score of it. Adds what could not be mouthed as written to `notices`.
+/// Throws Error{not_found} for an unknown expression or gaze, with near matches; Error{bad_input} for a text that
+/// cannot be mouthed.
+std::vector<AuthoredCurve> author_non_manuals(const Utterance& utterance, const Score& score,
+                                              const NonManualOptions& options, std::vector<Notice>& notices);
+
+}  // namespace signweave

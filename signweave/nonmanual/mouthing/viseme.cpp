@@ -11,7 +11,7 @@ struct VisemeRow {
   bool vowel;
   double length;       ///< relative
   float dominance;     ///< at its middle
-  MouthWeights shape;  // jaw, press, roll upper and lower, upper up, lower down, tongue, stretch, funnel, pucker, smile
+  MouthWeights shape;  // jaw, press, roll upper and lower, upper up, lower down, tongue, spread, funnel, pucker, smile
 };
 // Dominances: 1 for sounds that the lips make, 0.6 for vowels, 0.3 for sounds that the lips do not make. (ours)
 constexpr std::array<VisemeRow, kVisemeCount> kRows = {{
@@ -49,8 +49,8 @@ constexpr TrackRow kTracks[] = {
     {"mouthLowerDownLeft", MouthWeight::lower_down},
     {"mouthLowerDownRight", MouthWeight::lower_down},
     {"tongueOut", MouthWeight::tongue_out},
-    {"mouthStretchLeft", MouthWeight::stretch},
-    {"mouthStretchRight", MouthWeight::stretch},
+    {"mouthStretchLeft", MouthWeight::spread},
+    {"mouthStretchRight", MouthWeight::spread},
     {"mouthFunnel", MouthWeight::funnel},
     {"mouthPucker", MouthWeight::pucker},
     {"mouthSmileLeft", MouthWeight::smile},

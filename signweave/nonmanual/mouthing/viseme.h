@@ -47,7 +47,7 @@ enum class MouthWeight : std::uint8_t {
   upper_up,
   lower_down,
   tongue_out,
-  stretch,
+  spread,
   funnel,
   pucker,
   smile,

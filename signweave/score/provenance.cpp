@@ -92,6 +92,20 @@ class TierWriter {
     }
   }
 
+  /// The authored movements of face, gaze and head.
+  void add_curves() {
+    const std::size_t first = tiers_.size();
+    for (const AuthoredCurve& one : synthesis_.score.curves) {
+      const std::string name = !one.curve.mouth.empty() ? "Mouth" : one.curve.gaze ? "Gaze" : "Expression";
+      const TimeSpan span = span_of(one.at, clock_);
+      Tier& tier = free_tier(first, name, span);
+      tier.annotations.push_back(annotation(span, one.curve.name, new_id()));
+    }
+    for (std::size_t i = first; i < tiers_.size(); ++i) {
+      std::ranges::sort(tiers_[i].annotations, {}, [](const Annotation& one) { return one.span.begin; });
+    }
+  }
+
   std::vector<Tier> take() { return std::move(tiers_); }
   int last_id() const noexcept { return next_ - 1; }
 
@@ -109,6 +123,19 @@ class TierWriter {
     return fmt::format("clip {}, place {}: {} frames {:.10g}..{:.10g}{}", clip, synthesis_.score.clips[clip].place,
                        placed.recording, placed.first_frame - before, placed.first_frame + after,
                        synthesis_.score.clips[clip].mirrored ? ", mirrored" : "");
+  }
+  /// The first tier of a name, from `first` on, on which nothing overlaps a time; added if there is none.
+  Tier& free_tier(std::size_t first, const std::string& name, TimeSpan span) {
+    std::size_t number = 1;
+    for (std::size_t i = first; i < tiers_.size(); ++i) {
+      if (tiers_[i].type != "movement" || !tiers_[i].id.starts_with(name)) continue;
+      const bool is_free = std::ranges::none_of(tiers_[i].annotations, [&](const Annotation& one) {
+        return one.span.begin < span.end && span.begin < one.span.end;
+      });
+      if (is_free) return tiers_[i];
+      ++number;
+    }
+    return tiers_.emplace_back(Tier{.id = number == 1 ? name : fmt::format("{} {}", name, number), .type = "movement"});
   }
   std::string new_id() { return fmt::format("a{}", next_++); }
 
@@ -141,6 +168,8 @@ AnnotationDocument annotation_of(const Synthesis& synthesis, const std::string& 
   writer.add_body();
   const std::vector<const Lane*> lanes = lanes_that_differ(synthesis.score);
   for (const Lane* const lane : lanes) writer.add_lane(*lane);
+  writer.add_curves();
+  if (!synthesis.score.curves.empty()) document.types.push_back({"movement", Stereotype::none, {}});
   if (!lanes.empty()) document.types.push_back({"hold", Stereotype::none, {}});
   document.properties.emplace_back("lastUsedAnnotationId", fmt::format("{}", writer.last_id()));
   document.tiers = writer.take();

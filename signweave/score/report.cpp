@@ -7,7 +7,8 @@ SynthesisReport report_of(const Synthesis& synthesis) {
                          .frames_per_second = synthesis.motion.rate().hertz(),
                          .signs = {},
                          .clips = {},
-                         .junctions = {}};
+                         .junctions = {},
+                         .movements = {}};
   for (const PlacedSign& placed : synthesis.signs) {
     ReportSign& sign = report.signs.emplace_back(ReportSign{.gloss = placed.sign.gloss,
                                                             .place = placed.place,
@@ -26,6 +27,9 @@ SynthesisReport report_of(const Synthesis& synthesis) {
   for (std::size_t i = 0; i < synthesis.junctions.size(); ++i) {
     report.junctions.push_back(
         {.place = synthesis.score.clips[i + 1].place, .from_clip = i, .junction = synthesis.junctions[i]});
+  }
+  for (const AuthoredCurve& one : synthesis.score.curves) {
+    report.movements.push_back({one.curve.name, one.first, one.last, one.at});
   }
   return report;
 }

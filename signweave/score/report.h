@@ -139,6 +139,22 @@ void fields(Visit& visit, const ReportJunction& one) {
         given_if(!junction.chosen.empty(), junction.chosen));
 }
 
+/// An authored movement of face, gaze or head.
+struct ReportMovement {
+  std::string name;
+  std::size_t first = 0;
+  std::size_t last = 0;
+  FrameRange frames;
+};
+template <class Visit>
+void fields(Visit& visit, const ReportMovement& one) {
+  visit.type("ReportMovement");
+  visit(AnswerField{.name = "name", .help = "of an expression or a gaze, or the mouthed text"}, one.name);
+  visit(AnswerField{.name = "first_place", .minimum = 0}, one.first);
+  visit(AnswerField{.name = "last_place", .minimum = 0}, one.last);
+  visit(AnswerField{.name = "frames"}, one.frames);
+}
+
 /// Signs, clips and junctions of a synthesis, without its poses.
 struct SynthesisReport {
   std::int64_t frames = 0;
@@ -146,6 +162,7 @@ struct SynthesisReport {
   std::vector<ReportSign> signs;
   std::vector<ReportClip> clips;
   std::vector<ReportJunction> junctions;
+  std::vector<ReportMovement> movements;
 };
 template <class Visit>
 void report_fields(Visit& visit, const SynthesisReport& report) {
@@ -155,6 +172,8 @@ void report_fields(Visit& visit, const SynthesisReport& report) {
   visit(AnswerField{.name = "clips"}, report.clips);
   visit(AnswerField{.name = "stretches", .help = "the former name of clips"}, report.clips);
   visit(AnswerField{.name = "junctions"}, report.junctions);
+  visit(AnswerField{.name = "movements", .help = "authored ones of face, gaze and head; missing: none"},
+        given_if(!report.movements.empty(), report.movements));
 }
 template <class Visit>
 void fields(Visit& visit, const SynthesisReport& report) {

@@ -179,12 +179,22 @@ TEST(Mirrored, EveryJointIsWhereTheMirrorShowsItsCounterpart) {
       for (std::size_t i = 0; i < is.positions.size(); ++i) {
         const auto from = static_cast<std::size_t>(mirroring.joints[i].joint);
         const Vector3f wanted = mirroring.place - mirroring.half_turn * (was.positions[from] - mirroring.place);
-        const bool toes = shown.skeleton().joints()[i].name.find("Toe") != std::string::npos;
-        ASSERT_LT((is.positions[i] - wanted).norm(), toes ? 0.05f : 1e-3f)
-            << rig.name << ' ' << shown.skeleton().joints()[i].name;
+        const std::string& name = shown.skeleton().joints()[i].name;
+        const float near = name.find("Toe") != std::string::npos ? 0.05f : 1e-3f;
+        ASSERT_LT((is.positions[i] - wanted).norm(), near) << rig.name << ' ' << name;
       }
     }
   }
+}
+
+TEST(Mirrored, AJointInTheMiddleWithASpaceOfItsOwnFollowsTheSignersLeft) {
+  const Motion even = moving(rig_body({.fingers = kThreeJointFingers}).shared_skeleton(), 60);
+  const std::size_t neck = static_cast<std::size_t>(*even.skeleton().find("Neck"));
+  Pose rest(even.skeleton());
+  rest.rotations[neck] = Eigen::AngleAxisf(1.5707963f, Vector3f::UnitY());
+  const Mirroring mirroring = mirroring_of(body_seen(rested(even, rest.view())));
+  const Vector3f left = mirroring.joints[neck].turn.vec();
+  EXPECT_GT(std::abs(left.dot(rest.rotations[neck] * Vector3f::UnitX())), 0.96f);
 }
 
 TEST(Mirrored, IsTheMirrorImageOfASymmetricSkeleton) {

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 
 #include "demo/channels.h"
 
@@ -9,6 +10,7 @@ using Piece = HandPlan::Piece;
 using End = HandPlan::End;
 
 constexpr float kSink = 0.10f;
+constexpr double kLowerHand = 0.7;  ///< seconds from the belly to the hips
 
 /// Joins the pieces of one hand end to end.
 class LanePlanner {
@@ -27,8 +29,14 @@ class LanePlanner {
       add(signs[i].hold_end, now_);
       const bool last = i + 1 == signs.size();
       if (last || sign.end < signs[i + 1].placed.begin) {
-        move_to(sign.end, {.rest = last ? Rest::hips : Rest::belly}, sign.end);
+        const bool in_last_unit = sign.end >= timeline_.units.back()[0];
+        move_to(sign.end, {.rest = last && in_last_unit ? Rest::hips : Rest::belly}, sign.end);
       }
+    }
+    if (now_.rest != Rest::hips) {
+      const std::int64_t end = timeline_.units.back()[1];
+      add(end - std::llround(kLowerHand * fps_), now_);
+      move_to(end, {.rest = Rest::hips}, end);
     }
     add(timeline_.frames, now_);
     return std::move(pieces_);

@@ -6,8 +6,6 @@
 
 #include "demo/arm.h"
 #include "demo/arms.h"
-#include "demo/body.h"
-#include "demo/face.h"
 #include "signweave/motion/kinematics.h"
 
 namespace signweave::demo {
@@ -21,11 +19,9 @@ using Eigen::Vector3f;
 /// Fills the frames of one motion in order.
 class Animator {
  public:
-  Animator(const Signer& signer, const Timeline& timeline, const HandPlan& plan, Random& random)
-      : signer_(signer),
-        body_(move_body(timeline, plan, random)),
-        face_(face_of(timeline, random)),
-        arms_(signer, plan, timeline.rate.hertz(), random) {}
+  Animator(const Signer& signer, FrameRate rate, std::vector<BodyFrame> body, FaceMotion face, const HandPlan& plan,
+           Random& random)
+      : signer_(signer), body_(std::move(body)), face_(std::move(face)), arms_(signer, plan, rate.hertz(), random) {}
 
   /// Must be called for every frame, in order, before any is filled. Overwrites `pose`.
   void look_ahead(std::int64_t frame, MutablePoseView pose) {
@@ -136,15 +132,23 @@ class Animator {
 }  // namespace
 
 Motion animate(const Signer& signer, const Timeline& timeline, const HandPlan& plan, Random& random) {
-  Animator animator(signer, timeline, plan, random);
-  Motion motion(signer.skeleton, timeline.rate, timeline.frames);
-  for (std::int64_t frame = 0; frame < timeline.frames; ++frame) animator.look_ahead(frame, motion.pose(frame));
+  std::vector<BodyFrame> body = move_body(timeline, plan, random);
+  FaceMotion face = face_of(timeline, random);
+  return animate(signer, timeline.rate, std::move(body), std::move(face), plan, random);
+}
+
+Motion animate(const Signer& signer, FrameRate rate, std::vector<BodyFrame> body, FaceMotion face, const HandPlan& plan,
+               Random& random) {
+  const auto frames = static_cast<std::int64_t>(body.size());
+  Animator animator(signer, rate, std::move(body), std::move(face), plan, random);
+  Motion motion(signer.skeleton, rate, frames);
+  for (std::int64_t frame = 0; frame < frames; ++frame) animator.look_ahead(frame, motion.pose(frame));
   animator.yield_smoothly();
-  for (std::int64_t frame = 0; frame < timeline.frames; ++frame) animator.fill(frame, motion.pose(frame));
+  for (std::int64_t frame = 0; frame < frames; ++frame) animator.fill(frame, motion.pose(frame));
   keep_hemisphere(motion);
-  FaceMotion face = animator.take_face();
+  FaceMotion shown = animator.take_face();
   for (std::size_t i = 0; i < kFaceTracks; ++i) {
-    motion.add_track({std::string(name_of(static_cast<FaceTrack>(i))), std::move(face.tracks[i])});
+    motion.add_track({std::string(name_of(static_cast<FaceTrack>(i))), std::move(shown.tracks[i])});
   }
   return motion;
 }

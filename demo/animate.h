@@ -1,5 +1,7 @@
 #pragma once
 
+#include "demo/body.h"
+#include "demo/face.h"
 #include "demo/plan.h"
 #include "demo/signer.h"
 #include "signweave/motion/motion.h"
@@ -10,5 +12,9 @@ namespace signweave::demo {
 /// the plan, hands interpolated between handshapes, and a body with planted feet that breathes, follows the hands and
 /// looks. `plan` must be that of `timeline`.
 Motion animate(const Signer& signer, const Timeline& timeline, const HandPlan& plan, Random& random);
+
+/// The same with a given body and face, which have one frame each for every frame of the motion.
+Motion animate(const Signer& signer, FrameRate rate, std::vector<BodyFrame> body, FaceMotion face, const HandPlan& plan,
+               Random& random);
 
 }  // namespace signweave::demo

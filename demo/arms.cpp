@@ -91,6 +91,7 @@ void Arms::look_ahead(std::int64_t frame, const Trunk& trunk) {
   const Vector3f before[] = {limbs[0].wrist, limbs[1].wrist};
   yield(limbs, trunk);
   for (std::size_t side = 0; side < 2; ++side) yielded_[side].push_back(limbs[side].wrist - before[side]);
+  remember_still(limbs, frame);
 }
 
 void Arms::yield_smoothly() {
@@ -110,7 +111,9 @@ void Arms::fill(std::int64_t frame, const Trunk& trunk, MutablePoseView pose) {
       pose_limb(limb, side, trunk);
     }
     stay_outside(limb, side, trunk);
+    touch(limb, frame, side, trunk, pose);
     write_limb(limb, side, pose);
+    keep_still(frame, side, pose);
   }
 }
 

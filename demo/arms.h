@@ -19,6 +19,11 @@ struct Trunk {
   double breath = 0;                  ///< −1 (out) to 1
 };
 
+// The places of the body that fingertips touch, as offsets in the space of a joint, metres. `kChinFromJaw` is the tip
+// of the jaw.
+inline const Eigen::Vector3f kChinFromJaw(0, -0.040f, 0.065f);     ///< of the jaw
+inline const Eigen::Vector3f kChestFromSpine2(0, 0.060f, 0.130f);  ///< of the upper chest
+
 /// Idle motion of one arm: a slow drift of about a millimetre, and a finer, faster tremor.
 struct ArmIdleMotion {
   explicit ArmIdleMotion(Random& random);
@@ -78,6 +83,14 @@ class Arms {
   void yield(Limbs& limbs, const Trunk& trunk) const;
   void stay_outside(Limb& limb, Side side, const Trunk& trunk) const;
   void write_limb(const Limb& limb, Side side, MutablePoseView pose) const;
+  // Hands that are kept still, and fingertips that touch something (arms_channels.cpp).
+  void remember_still(const Limbs& limbs, std::int64_t frame);
+  void keep_still(std::int64_t frame, Side side, MutablePoseView pose) const;
+  void add_unrest(Side side, double weight, double seconds, MutablePoseView pose) const;
+  void touch(Limb& limb, std::int64_t frame, Side side, const Trunk& trunk, PoseView pose) const;
+  Eigen::Vector3f touched_place(const HandPlan::Touch& touch, const Eigen::Vector3f& tip, const Trunk& trunk,
+                                PoseView pose) const;
+  std::vector<JointIndex> limb_joints(Side side) const;
 
   const Signer& signer_;
   const HandPlan& plan_;
@@ -87,6 +100,8 @@ class Arms {
   Eigen::Vector3f shoulder_;                                             ///< left shoulder in the rest pose
   std::map<std::tuple<const SignShape*, Side, int>, WristAngles> held_;  ///< cache: each entry takes a search
   std::array<std::vector<Eigen::Vector3f>, 2> yielded_;                  ///< [side][frame], metres, as the left arm
+  /// [side][HandPlan::still][limb joint]: local rotations of the hands that are kept still.
+  std::array<std::vector<std::vector<Eigen::Quaternionf>>, 2> still_;
 };
 
 }  // namespace signweave::demo

@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <system_error>
 
+#include "demo/channels.h"
 #include "demo/corpus.h"
 #include "demo/sheets.h"
 #include "signweave/core/atomic_file.h"
@@ -30,8 +31,24 @@ struct CorpusOptions {
   FrameRate rate;
   std::uint64_t seed = 1;
   double minutes = 44;
+  bool channels = false;
   bool sheets = false;
 };
+
+void write_recording(const std::filesystem::path& folder, const demo::SyntheticRecording& recording, bool sheets) {
+  const auto path = [&](const char* extension) { return folder / (recording.name + extension); };
+  bvh::write(path(".bvh"), recording.motion, bvh::default_layout(recording.motion.skeleton()));
+  eaf::write(path(".eaf"), recording.document);
+  write_file(path(".truth.csv"), recording.truth);
+  if (!recording.motion.tracks().empty()) write_file(path(".face.csv"), face_csv::write_text(recording.motion));
+  if (sheets) {
+    write_file(path(".svg"), demo::stroke_sheet(recording));
+    write_file(path(".sentence.svg"), demo::sentence_sheet(recording, 1));
+    write_file(path(".side.svg"), demo::sentence_sheet(recording, 1, 75));
+  }
+  fmt::print("{}: {} signs, {} frames, {:.1f} s\n", recording.name, recording.timeline.signs.size(),
+             recording.motion.frame_count(), recording.motion.duration().count());
+}
 
 /// Generates one recording after another, so that only one is in memory.
 void write_corpus(const std::filesystem::path& folder, const CorpusOptions& options) {
@@ -40,24 +57,22 @@ void write_corpus(const std::filesystem::path& folder, const CorpusOptions& opti
   if (refused) throw Error(ErrorCode::io, folder.string() + ": " + refused.message() + "; name a writable folder");
   if (options.sheets) write_file(folder / "handshapes.svg", demo::handshape_sheet());
   double seconds = 0;
-  const std::vector<demo::Script> scripts = demo::corpus_scripts(options.minutes);
-  for (const demo::Script& script : scripts) {
-    const demo::SyntheticRecording recording = demo::make_recording(script, options.rate, options.seed);
-    const auto path = [&](const char* extension) { return folder / (recording.name + extension); };
-    bvh::write(path(".bvh"), recording.motion, bvh::default_layout(recording.motion.skeleton()));
-    eaf::write(path(".eaf"), recording.document);
-    write_file(path(".truth.csv"), recording.truth);
-    if (!recording.motion.tracks().empty()) write_file(path(".face.csv"), face_csv::write_text(recording.motion));
-    if (options.sheets) {
-      write_file(path(".svg"), demo::stroke_sheet(recording));
-      write_file(path(".sentence.svg"), demo::sentence_sheet(recording, 1));
-      write_file(path(".side.svg"), demo::sentence_sheet(recording, 1, 75));
-    }
-    fmt::print("{}: {} signs, {} frames, {:.1f} s\n", recording.name, recording.timeline.signs.size(),
-               recording.motion.frame_count(), recording.motion.duration().count());
+  std::size_t count = 0;
+  const auto write = [&](const demo::SyntheticRecording& recording) {
+    write_recording(folder, recording, options.sheets);
     seconds += recording.motion.duration().count();
+    ++count;
+  };
+  if (options.channels) {
+    for (const demo::ChannelScript& script : {demo::mains(), demo::visage()}) {
+      write(demo::make_channels(script, options.rate, options.seed));
+    }
+  } else {
+    for (const demo::Script& script : demo::corpus_scripts(options.minutes)) {
+      write(demo::make_recording(script, options.rate, options.seed));
+    }
   }
-  fmt::print("{} recordings, {:.1f} minutes\n", scripts.size(), seconds / 60);
+  fmt::print("{} recordings, {:.1f} minutes\n", count, seconds / 60);
 }
 
 }  // namespace
@@ -78,6 +93,10 @@ int main(int argc, char** argv) {
   app.add_option("--minutes", options.minutes, "total length of all recordings; 2 gives meteo and villes only")
       ->capture_default_str()
       ->check(CLI::Range(0.0, 10'000.0));
+  app.add_flag(
+      "--channels", options.channels,
+      "write the two recordings mains and visage instead, in which hands, mouth, brows, head and gaze have times "
+      "of their own");
   app.add_flag(
       "--sheets", options.sheets,
       "also write contact sheets (.svg): every stroke, a sentence from the front and from the side, handshapes");

@@ -40,6 +40,33 @@ double evenly(double t) {
 
 }  // namespace
 
+void shape_movement(Piece& piece, Side side, std::int64_t split, float sink, double frames_per_second, Random& random) {
+  const Vector3f from_place = place_of(piece.from, side);
+  const Vector3f to_place = place_of(piece.to, side);
+  if (piece.to.sign != nullptr) {
+    // The handshape changes during the preparation: the old one is released by its begin, and the new one is complete
+    // slightly before the stroke.
+    const double part = std::clamp((static_cast<double>(split) - piece.begin) / (piece.end - piece.begin), 0.0, 0.9);
+    piece.shape_begin = 0.7 * part;
+    piece.shape_end = 1 - 0.12 * (1 - part);
+  }
+  piece.skew = random.uniform(0.10, 0.34);
+  // Around the body and outwards, never in a straight line.
+  const Vector3f line = to_place - from_place;
+  Vector3f across = line.cross(Vector3f::UnitZ());
+  if (across.norm() > 0.25f * line.norm() && line.norm() > 0.01f) {
+    across *= (across.x() < 0 ? -1.0f : 1.0f) / across.norm();
+    piece.bulge = static_cast<float>(0.09 + 0.04 * random.normal()) * line.norm() * across;
+  }
+  piece.bulge.z() += 0.12f * line.norm();
+  if (piece.from.sign != nullptr && piece.to.sign != nullptr) {
+    // In a quick transition there is no time to sink.
+    const double seconds = (piece.end - piece.begin) / frames_per_second;
+    piece.sink = sink * static_cast<float>(std::clamp((seconds - 0.35) / 0.6, 0.0, 1.0) *
+                                           std::clamp(1 + 0.2 * random.normal(), 0.6, 1.3));
+  }
+}
+
 /// Joins the pieces of one hand end to end.
 class HandPlan::Builder {
  public:
@@ -78,35 +105,9 @@ class HandPlan::Builder {
 
   /// Adds a movement to another position. `split`: the frame in which the next sign begins.
   void move_to(double end, const End& to, std::int64_t split) {
-    const Vector3f from_place = place_of(now_, side_);
-    const Vector3f to_place = place_of(to, side_);
-    const bool between = now_.sign != nullptr && to.sign != nullptr;
     const double begin = at_;
     add(end, to);
-    if (begin == at_) return;
-    Piece& piece = pieces_.back();
-    if (to.sign != nullptr) {
-      // The handshape changes during the preparation: the old one is released by its begin, and the new one is complete
-      // slightly before the stroke.
-      const double part = std::clamp((frame(split) - begin) / (end - begin), 0.0, 0.9);
-      piece.shape_begin = 0.7 * part;
-      piece.shape_end = 1 - 0.12 * (1 - part);
-    }
-    piece.skew = random_.uniform(0.10, 0.34);
-    // Around the body and outwards, never in a straight line.
-    const Vector3f line = to_place - from_place;
-    Vector3f across = line.cross(Vector3f::UnitZ());
-    if (across.norm() > 0.25f * line.norm() && line.norm() > 0.01f) {
-      across *= (across.x() < 0 ? -1.0f : 1.0f) / across.norm();
-      piece.bulge = static_cast<float>(0.09 + 0.04 * random_.normal()) * line.norm() * across;
-    }
-    piece.bulge.z() += 0.12f * line.norm();
-    if (between) {
-      // In a quick transition there is no time to sink.
-      const double seconds = (end - begin) / fps_;
-      piece.sink = script_.sink * static_cast<float>(std::clamp((seconds - 0.35) / 0.6, 0.0, 1.0) *
-                                                     std::clamp(1 + 0.2 * random_.normal(), 0.6, 1.3));
-    }
+    if (begin != at_) shape_movement(pieces_.back(), side_, split, script_.sink, fps_, random_);
   }
 
   /// Adds the behaviour of a hand until it is needed again: at the earliest at `until`, at the latest at `sign_begin`.
@@ -166,12 +167,12 @@ class HandPlan::Builder {
 
 HandPlan::HandPlan(const Script& script, const Timeline& timeline, Random& random) {
   for (const Side side : kSides) {
-    pieces_[static_cast<std::size_t>(side)] = Builder(script, timeline, side, random).build();
+    content_.pieces[static_cast<std::size_t>(side)] = Builder(script, timeline, side, random).build();
   }
 }
 
 const Piece& HandPlan::piece_at(Side side, double frame) const {
-  const std::vector<Piece>& pieces = pieces_[static_cast<std::size_t>(side)];
+  const std::vector<Piece>& pieces = content_.pieces[static_cast<std::size_t>(side)];
   assert(!pieces.empty());
   const auto after = std::upper_bound(pieces.begin(), pieces.end(), frame,
                                       [](double value, const Piece& piece) { return value < piece.begin; });

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <array>
+#include <span>
+#include <utility>
 #include <vector>
 
 #include "demo/script.h"
@@ -35,6 +37,33 @@ class HandPlan {
     bool is_stroke() const noexcept { return from.sign != nullptr && from.sign == to.sign && from.stroke < to.stroke; }
   };
 
+  /// A time in which a hand is kept as it is: its joints stay constant relative to the chest. Frames.
+  struct Stillness {
+    double begin = 0, end = 0;
+  };
+  /// What a fingertip can touch.
+  enum class Touchable { chin, chest, fingertip };
+  /// A time in which a fingertip touches something. Frames.
+  struct Touch {
+    double begin = 0, end = 0;
+    Side side = Side::right;
+    int finger = 1;  ///< the one that touches, thumb 0
+    Touchable what = Touchable::chin;
+    int other_finger = 1;  ///< of the other hand, if a fingertip is touched
+  };
+  /// Everything that hands do, [side], in order; each hand's pieces must join end to end.
+  struct Content {
+    std::array<std::vector<Piece>, 2> pieces;
+    std::array<std::vector<Stillness>, 2> still;
+    std::vector<Touch> touches;
+    float unrest = 1;  ///< scale of the movement of hands that are kept still
+  };
+  explicit HandPlan(Content content) : content_(std::move(content)) {}
+
+  std::span<const Stillness> still(Side side) const { return content_.still[static_cast<std::size_t>(side)]; }
+  std::span<const Touch> touches() const { return content_.touches; }
+  float unrest() const noexcept { return content_.unrest; }
+
   const Piece& piece_at(Side side, double frame) const;
   /// The position of a frame in a piece: 0 to 1 by time, and the fraction of the path done (slow at both ends).
   static double time_in(const Piece& piece, double frame);
@@ -48,8 +77,13 @@ class HandPlan {
 
  private:
   class Builder;
-  std::array<std::vector<Piece>, 2> pieces_;  ///< [side]
+  Content content_;
 };
+
+/// Gives a movement between two positions its curve, its speed and the time in which the handshape changes. `split` is
+/// the frame in which the next sign begins; between two signs the hand sinks by `sink` (Script::sink).
+void shape_movement(HandPlan::Piece& piece, Side side, std::int64_t split, float sink, double frames_per_second,
+                    Random& random);
 
 /// The handshape at an end of a piece.
 Handshape shape_of(const HandPlan::End& end, Side side);

@@ -70,6 +70,9 @@ Eigen::Vector3f rest_place(Rest rest = Rest::belly);
 /// whole milliseconds less often than every 50 ms.
 Timeline schedule(const Script& script, FrameRate rate, Random& random);
 
+/// Duration of a stroke without the token's own tempo, seconds.
+double stroke_seconds(const SignShape& sign, const Token& token);
+
 /// Approximate duration of a recording of that script, seconds.
 double expected_seconds(const Script& script);
 

@@ -1,12 +1,9 @@
 #include "demo/script.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
-#include "signweave/core/error.h"
+#include "demo/grid.h"
 
 namespace signweave::demo {
 namespace {
@@ -19,25 +16,6 @@ struct Junction {
   double seconds = 0;       ///< retraction and preparation together
   double retraction = 0.5;  ///< its share of that
 };
-
-/// Frames that fall on whole milliseconds: the number of frames per step, and its seconds.
-struct Grid {
-  std::int64_t frames = 1;
-  double seconds = 0;
-  std::int64_t steps(double duration) const { return std::llround(duration / seconds); }
-};
-
-Grid grid_of(FrameRate rate) {
-  const std::int64_t frames = rate.numerator / std::gcd(rate.numerator, 1000 * rate.denominator);
-  const Grid grid{frames, static_cast<double>(frames) * rate.frame_time().count()};
-  if (grid.seconds > 0.0501) {
-    throw Error(
-        ErrorCode::unsupported,
-        fmt::format("--rate {}: its frames fall on whole milliseconds only every {:.0f} ms; take 100, 50 or 120",
-                    to_string(rate), 1000 * grid.seconds));
-  }
-  return grid;
-}
 
 Eigen::Vector3f place_of(const SignShape& sign, Side side, float done) {
   return acts(sign, side) ? stroke_place(sign, side, done) : rest_place();
@@ -77,20 +55,6 @@ void give_durations(const std::vector<Junction*>& junctions, const Script& scrip
   for (std::size_t i = 0; i < order.size(); ++i) order[i].second->seconds = durations[i];
 }
 
-/// Without the token's own tempo.
-double stroke_seconds(const SignShape& sign, const Token& token) {
-  float length = 0;
-  for (const Side side : kSides) {
-    if (acts(sign, side)) length = std::max(length, stroke_length(sign, side, token));
-  }
-  // A longer path takes longer, a tenth of a second for 12 cm, with at most about 2.2 m/s in its middle; a wrist turns
-  // or bends back and forth at most four times per second.
-  const double turns = sign.movement == Movement::repeated ? 0 : times_of(sign, token);
-  const double seconds =
-      std::max({0.38 + 0.85 * static_cast<double>(length), 1.875 * static_cast<double>(length) / 2.2, 0.25 * turns});
-  return std::clamp(seconds, 0.38, 0.74);
-}
-
 /// `quick` is the shorter of the transitions before and after, in seconds.
 Token draw_token(const SignShape& sign, double quick, Random& random) {
   Token token;
@@ -127,6 +91,19 @@ constexpr double kShortestRest = 0.8;
 constexpr double kLongestRest = 1.4;
 
 }  // namespace
+
+double stroke_seconds(const SignShape& sign, const Token& token) {
+  float length = 0;
+  for (const Side side : kSides) {
+    if (acts(sign, side)) length = std::max(length, stroke_length(sign, side, token));
+  }
+  // A longer path takes longer, a tenth of a second for 12 cm, with at most about 2.2 m/s in its middle; a wrist turns
+  // or bends back and forth at most four times per second.
+  const double turns = sign.movement == Movement::repeated ? 0 : times_of(sign, token);
+  const double seconds =
+      std::max({0.38 + 0.85 * static_cast<double>(length), 1.875 * static_cast<double>(length) / 2.2, 0.25 * turns});
+  return std::clamp(seconds, 0.38, 0.74);
+}
 
 bool ends_unit(const Timeline& timeline, std::size_t sign) noexcept {
   return sign + 1 >= timeline.signs.size() || timeline.signs[sign + 1].begin > timeline.signs[sign].end;

@@ -34,6 +34,7 @@ const SignShape& sign_for(std::string_view gloss) {
 }
 
 bool acts(const SignShape& sign, Side side) noexcept {
+  if (sign.hands == Hands::left) return side == Side::left;
   return side == Side::right || sign.hands != one;
 }
 

@@ -17,6 +17,7 @@ namespace signweave::demo {
 
 enum class Hands {
   one,          ///< the right hand; the left rests
+  left,         ///< the left hand; the right does something else (channels.h)
   mirrored,     ///< both, mirrored
   alternating,  ///< both, the left half a movement behind
   on_base,      ///< the right acts, the left holds `base`

@@ -8,8 +8,11 @@
 #include "signweave/core/error.h"
 #include "signweave/database/database.h"
 #include "signweave/database/test_recording.h"
+#include "signweave/live/player.h"
+#include "signweave/live/shared_signing_cache.h"
 #include "signweave/notation/score_json.h"
 #include "signweave/score/lane_chain.h"
+#include "signweave/score/provenance.h"
 #include "tests/demo_database.h"
 
 namespace signweave::channels {
@@ -152,6 +155,101 @@ TEST(ChannelsTest, TheWeakHandSignsAnotherGlossAndHolds) {
   EXPECT_EQ(chain[0].clip, 4u);
   EXPECT_GT(chain[0].held, 0);
   EXPECT_EQ(chain[1].clip, 3u);
+}
+
+const Motion& motion_of(const Synthesized& made) {
+  return made.result.motion;
+}
+
+float most(const Motion& motion, std::string_view track, FrameRange frames) {
+  const auto at = std::ranges::find(motion.tracks(), track, &ScalarTrack::name);
+  if (at == motion.tracks().end()) return -1;
+  return *std::max_element(at->values.begin() + frames.begin, at->values.begin() + frames.end);
+}
+
+/// An utterance with everything: two hands, a hold, a handshape, an expression, a mouthing and a gaze.
+Utterance everything() {
+  Utterance utterance{.places = {place_of({"DEMAIN"}), place_of({"MATIN"}), place_of({"PLUIE"}), place_of({"VANNES"})}};
+  utterance.places[0].parts = {weak("NUAGES")};
+  PlacePart fingers = weak("RENNES");
+  fingers.part = BodyPart::right_fingers;
+  utterance.places[2].parts = {fingers};
+  utterance.holds = {{.hand = BodyPart::weak, .from = 0, .until = 1}};
+  utterance.non_manuals = {{.kind = NonManual::Kind::expression, .what = "q-polar", .first = 1, .last = 2},
+                           {.kind = NonManual::Kind::mouthing, .what = "pluie", .first = 2, .last = 2},
+                           {.kind = NonManual::Kind::gaze, .what = "left", .first = 3, .last = 3}};
+  return utterance;
+}
+
+TEST(ChannelsTest, FaceGazeAndHeadMoveOverTheirPlaces) {
+  Utterance plain = everything();
+  plain.non_manuals.clear();
+  const Synthesized before = synthesize(corpus(), plain);
+  const Synthesized made = synthesize(corpus(), everything());
+  ASSERT_EQ(made.result.score.curves.size(), 3u);
+  const Score& score = made.result.score;
+  EXPECT_EQ(score.curves[0].at.begin, score.clips[1].at.begin - 8);  // 80 ms before, 22 ms after
+  EXPECT_EQ(score.curves[0].at.end, score.clips[2].at.end + 2);
+  EXPECT_GT(most(motion_of(made), "browInnerUp", score.curves[0].at), 0.79f);
+  EXPECT_GT(most(motion_of(made), "eyeLookInRight", score.curves[2].at), 0.3f);
+  const Snapshot snapshot = corpus().snapshot();
+  const auto head = static_cast<std::size_t>(snapshot.signer(snapshot.contents().at("meteo"))->rig[Part::head].joint);
+  for (std::int64_t frame = 0; frame < score.frames; ++frame) {
+    const bool turned = std::ranges::any_of(
+        score.curves, [&](const AuthoredCurve& one) { return one.at.begin <= frame && frame < one.at.end; });
+    const float same =
+        std::abs(motion_of(before).pose(frame).rotations[head].dot(motion_of(made).pose(frame).rotations[head]));
+    if (!turned)
+      EXPECT_EQ(motion_of(before).pose(frame).rotations[head].coeffs(),
+                motion_of(made).pose(frame).rotations[head].coeffs());
+    if (frame == score.clips[1].at.end) EXPECT_LT(same, 0.9999f);
+  }
+}
+
+TEST(ChannelsTest, AScoreOfEverythingRendersTheSameFramesInAnyRange) {
+  const Synthesized made = synthesize(corpus(), everything());
+  const Score score = score_from_json(json_of(made.result.score), "score.json");
+  EXPECT_EQ(score, made.result.score);
+  EXPECT_EQ(version_of(score), 2);
+  EXPECT_TRUE(same_bits(motion_of(synthesize(corpus(), score)), motion_of(made)));
+  OpenScore open(corpus(), score);
+  Motion some;
+  for (const FrameRange frames : {FrameRange{0, 1}, FrameRange{score.frames / 3, score.frames / 2},
+                                  FrameRange{score.frames - 40, score.frames}}) {
+    open.render(frames, some);
+    for (std::int64_t frame = frames.begin; frame < frames.end; ++frame) {
+      for (std::size_t joint = 0; joint < some.skeleton().joint_count(); ++joint) {
+        ASSERT_EQ(some.pose(frame - frames.begin).rotations[joint].coeffs(),
+                  motion_of(made).pose(frame).rotations[joint].coeffs());
+      }
+    }
+    for (std::size_t track = 0; track < some.tracks().size(); ++track) {
+      ASSERT_EQ(some.tracks()[track].values[0],
+                motion_of(made).tracks()[track].values[static_cast<std::size_t>(frames.begin)]);
+    }
+  }
+}
+
+TEST(ChannelsTest, TheAnnotationNamesTheSourcesOfEachChannel) {
+  const Synthesized made = synthesize(corpus(), everything());
+  const AnnotationDocument document = annotation_of(made.result);
+  std::vector<std::string> tiers;
+  for (const Tier& tier : document.tiers) tiers.push_back(tier.id);
+  EXPECT_THAT(tiers, testing::IsSupersetOf({"Gloss", "Source", "Gloss left", "Phase left", "Source left", "Hold left",
+                                            "Junction left", "Gloss right fingers", "Source right fingers",
+                                            "Expression", "Mouth", "Gaze"}));
+}
+
+TEST(ChannelsTest, AStreamRefusesPartsInOneLine) {
+  SharedSigningCache cache(corpus());
+  Player player(cache, {});
+  try {
+    player.sign(everything());
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ErrorCode::unsupported);
+    EXPECT_THAT(error.what(), HasSubstr("a stream signs with the whole body"));
+  }
 }
 
 }  // namespace

@@ -40,7 +40,7 @@ Motion captured_villes() {
 
 /// meteo as captured from the right-handed signer, and villes as if a left-handed one had signed it.
 const Database& two_hands() {
-  static const TestFolder folder;
+  static const kv::TestFolder folder;
   static const std::unique_ptr<const Database> database = [] {
     const std::filesystem::path path = folder / "db";
     Database::create(path, {});

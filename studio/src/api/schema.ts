@@ -460,6 +460,8 @@ export interface components {
       readonly kept_frames: components['schemas']['Frames']
       readonly kept_from_recorded_frame: number
       readonly recorded_frames_per_frame: number
+      /** @description left and right are exchanged; not if missing */
+      readonly mirrored?: boolean
     }
     readonly ReportCut: {
       readonly retraction_frames: number
@@ -612,6 +614,8 @@ export interface components {
       readonly standing: components['schemas']['ScoreStanding'] | null
       readonly clock: components['schemas']['ScoreClock']
       readonly signs: readonly components['schemas']['ScoreSign'][]
+      /** @description shown with left and right exchanged; not if missing */
+      readonly mirrored?: boolean
     }
     readonly ScoreJunction: {
       readonly number: number

@@ -19,9 +19,8 @@ struct Trunk {
   double breath = 0;                  ///< −1 (out) to 1
 };
 
-// The places of the body that fingertips touch, as offsets in the space of a joint, metres. `kChinFromJaw` is the tip
-// of the jaw.
-inline const Eigen::Vector3f kChinFromJaw(0, -0.040f, 0.065f);     ///< of the jaw
+// The places of the body that fingertips touch, as offsets in the space of a joint, metres.
+inline const Eigen::Vector3f kChinFromJaw(0, -0.018f, 0.040f);     ///< of the jaw
 inline const Eigen::Vector3f kChestFromSpine2(0, 0.060f, 0.130f);  ///< of the upper chest
 
 /// Idle motion of one arm: a slow drift of about a millimetre, and a finer, faster tremor.

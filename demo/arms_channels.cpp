@@ -19,15 +19,15 @@ constexpr double kApproach = 0.18;  ///< before and after a touch in which the h
 constexpr float kToSkin = 0.009f;
 constexpr float kToFinger = 0.017f;
 
-double smooth(double t) {
+double eased_in(double t) {
   const double u = std::clamp(t, 0.0, 1.0);
   return u * u * (3 - 2 * u);
 }
 
 /// 1 from begin to end, smoothly 0 outside.
 double weight_at(double frame, double begin, double end, double before, double after) {
-  if (frame < begin) return smooth(1 - (begin - frame) / before);
-  return frame > end ? smooth(1 - (frame - end) / after) : 1.0;
+  if (frame < begin) return eased_in(1 - (begin - frame) / before);
+  return frame > end ? eased_in(1 - (frame - end) / after) : 1.0;
 }
 
 /// Between two local rotations of a forearm: flexion and twist separately, since an elbow bends about one axis.

@@ -16,7 +16,7 @@ constexpr double kHalfOfRamp = 0.559;  ///< of the ramp at which the weight is 0
 constexpr double kMouthInside = 0.03;  ///< seconds by which the mouth's shapes lie inside the annotated time
 constexpr double kMouthBlend = 0.05;   ///< seconds in which one shape becomes the next
 
-double smooth(double t) {
+double eased(double t) {
   const double u = std::clamp(t, 0.0, 1.0);
   return u * u * (3 - 2 * u);
 }
@@ -42,7 +42,7 @@ void move_brows(Painter& painter, const MarkedFrames& marked) {
     const auto at = static_cast<double>(frame);
     const double rising = (at - static_cast<double>(marked.begin)) / ramp + kHalfOfRamp;
     const double falling = (static_cast<double>(marked.end) - at) / ramp + kHalfOfRamp;
-    const double weight = static_cast<double>(kBrows) * smooth(std::min(rising, falling));
+    const double weight = static_cast<double>(kBrows) * eased(std::min(rising, falling));
     if (marked.label == "raised") {
       for (const FaceTrack track : {browInnerUp, browOuterUpLeft, browOuterUpRight})
         painter.raise(track, frame, weight);
@@ -81,14 +81,14 @@ void mouth(Painter& painter, const MarkedFrames& marked) {
     for (std::int64_t frame = marked.begin; frame < marked.end; ++frame) {
       const auto now = static_cast<double>(frame);
       // The sum of the weights of neighbours is 1.
-      const double weight = smooth((now - at) / blend + 0.5) - smooth((now - end) / blend + 0.5);
+      const double weight = eased((now - at) / blend + 0.5) - eased((now - end) / blend + 0.5);
       if (weight > 0) shape_mouth(painter, frame, shape, weight);
     }
     at = end;
   }
 }
 
-void blink(Painter& painter, const MarkedFrames& marked) {
+void shut_lids(Painter& painter, const MarkedFrames& marked) {
   const auto begin = static_cast<double>(marked.begin);
   const auto end = static_cast<double>(marked.end);
   const double shut = begin + 0.35 * (end - begin);
@@ -108,7 +108,7 @@ void blink(Painter& painter, const MarkedFrames& marked) {
 double within(const MarkedFrames& marked, double frame, double seconds, double fps) {
   const double rising = (frame - static_cast<double>(marked.begin)) / (seconds * fps) + 1;
   const double falling = (static_cast<double>(marked.end) - frame) / (seconds * fps) + 1;
-  return smooth(std::min(rising, falling));
+  return eased(std::min(rising, falling));
 }
 
 /// The same, rising and falling inside them.
@@ -125,7 +125,7 @@ FaceMotion face_of(const ChannelTimeline& timeline, Random& random) {
   Painter painter{face, timeline.rate.hertz()};
   for (const MarkedFrames& marked : timeline.brows) move_brows(painter, marked);
   for (const MarkedFrames& marked : timeline.mouthings) mouth(painter, marked);
-  for (const MarkedFrames& marked : timeline.blinks) blink(painter, marked);
+  for (const MarkedFrames& marked : timeline.blinks) shut_lids(painter, marked);
   // A living face is never completely still.
   const Wander brow_unrest(random, 0.05, 0.4);
   const Wander mouth_unrest(random, 0.05, 0.5);
@@ -153,9 +153,9 @@ void turn_heads(const ChannelTimeline& timeline, std::vector<BodyFrame>& body) {
     }
     for (const MarkedFrames& gaze : timeline.gazes) {
       const float side = gaze.label == "left" ? 1.0f : -1.0f;
-      one.head_yaw += static_cast<double>(side) * 0.15 * within(gaze, frame, 0.25, fps);
+      one.head_yaw += static_cast<double>(side) * 0.17 * within(gaze, frame, 0.25, fps);
       const auto weight = static_cast<float>(inside(gaze, frame, 0.05, fps));
-      const Eigen::Vector3f look(side * 0.48f, -0.12f, 0.87f);
+      const Eigen::Vector3f look(side * 0.60f, -0.12f, 0.79f);
       one.look = (one.look + weight * (look.normalized() - one.look)).normalized();
     }
   }

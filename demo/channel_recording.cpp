@@ -11,14 +11,14 @@
 namespace signweave::demo {
 namespace {
 
-struct PlacedPhase {
+struct LanePhase {
   const std::string* label;
   std::int64_t begin, end;  ///< frames
 };
 
-std::vector<PlacedPhase> phases_of(const LaneSign& sign, const ChannelTiers& tiers) {
-  std::vector<PlacedPhase> phases = {{&tiers.preparation, sign.placed.begin, sign.placed.stroke_begin},
-                                     {&tiers.stroke, sign.placed.stroke_begin, sign.placed.stroke_end}};
+std::vector<LanePhase> lane_phases(const LaneSign& sign, const ChannelTiers& tiers) {
+  std::vector<LanePhase> phases = {{&tiers.preparation, sign.placed.begin, sign.placed.stroke_begin},
+                                   {&tiers.stroke, sign.placed.stroke_begin, sign.placed.stroke_end}};
   if (sign.hold_end > sign.placed.stroke_end) phases.push_back({&tiers.hold, sign.placed.stroke_end, sign.hold_end});
   phases.push_back({&tiers.retraction, sign.hold_end, sign.placed.end});
   return phases;
@@ -67,7 +67,7 @@ class Annotator {
       glosses.annotations.push_back(
           annotation(std::string(sign.placed.shape->gloss), sign.placed.begin, sign.placed.end));
       const std::string id = glosses.annotations.back().id;
-      for (const PlacedPhase& phase : phases_of(sign, script_.tiers)) {
+      for (const LanePhase& phase : lane_phases(sign, script_.tiers)) {
         phases.annotations.push_back(annotation(*phase.label, phase.begin, phase.end, id));
       }
     }
@@ -89,12 +89,12 @@ class Annotator {
   std::size_t number_ = 0;
 };
 
-std::string truth_of(const ChannelScript& script, const ChannelTimeline& timeline, const HandPlan& plan) {
+std::string lane_truth(const ChannelScript& script, const ChannelTimeline& timeline, const HandPlan& plan) {
   const FrameClock clock{.frame_time = timeline.rate.frame_time()};
   std::string text = "gloss,phase,begin_ms,end_ms,hand,x,y,z,handshape,size\n";
   for (const Side side : {Side::right, Side::left}) {
     for (const LaneSign& sign : timeline.lanes[static_cast<std::size_t>(side)]) {
-      for (const PlacedPhase& phase : phases_of(sign, script.tiers)) {
+      for (const LanePhase& phase : lane_phases(sign, script.tiers)) {
         const TimeSpan span = span_of({phase.begin, phase.end}, clock);
         const auto end = static_cast<double>(phase.end);
         const Eigen::Vector3f wrist = plan.at(side, end);
@@ -145,7 +145,7 @@ SyntheticRecording make_channels(const ChannelScript& script, FrameRate rate, st
   recording.motion = animate(signer, rate, std::move(body), std::move(face), plan, random);
   add_eye_tracks(signer, recording.motion);
   recording.document = Annotator(script, timeline).document();
-  recording.truth = truth_of(script, timeline, plan);
+  recording.truth = lane_truth(script, timeline, plan);
   return recording;
 }
 

@@ -10,7 +10,7 @@ namespace signweave::demo {
 namespace {
 
 // Seconds.
-constexpr double kFirstRest = 1.2;
+constexpr double kRestAtBegin = 1.2;
 constexpr double kRest = 0.8;          ///< at least, between units
 constexpr double kPreparation = 0.70;  ///< from rest
 constexpr double kRetraction = 0.65;   ///< to rest
@@ -232,7 +232,7 @@ ChannelTimeline schedule_channels(const ChannelScript& script, FrameRate rate, R
   ChannelTimeline timeline;
   timeline.rate = rate;
   const Grid grid = grid_of(rate);
-  std::int64_t at = grid.steps(kFirstRest) * grid.frames;
+  std::int64_t at = grid.steps(kRestAtBegin) * grid.frames;
   for (const ChannelUnit& unit : script.units) {
     const std::int64_t end = UnitScheduler(timeline, unit, random).run(at);
     at = end + grid.steps(random.uniform(kRest, kRest + 0.4)) * grid.frames;

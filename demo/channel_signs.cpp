@@ -16,49 +16,49 @@ namespace {
 using Eigen::Vector3f;
 using enum Movement;
 
-Vector3f v(float x, float y, float z) {
+Vector3f vec(float x, float y, float z) {
   return {x, y, z};
 }
 
-const Vector3f kUp(0, 1, 0), kDown(0, -1, 0), kForward(0, 0, 1), kBack(0, 0, -1), kIn(-1, 0, 0), kOut(1, 0, 0);
+const Vector3f kUpward(0, 1, 0), kAhead(0, 0, 1), kBackward(0, 0, -1), kOutward(1, 0, 0);
 
 // clang-format off
-const SignShape kTable[] = {
+const SignShape kChannelTable[] = {
     // Held by the left hand: a region on a map, and a list whose items the right hand touches.
-    {.gloss = "REGION", .hands = Hands::left, .shape = Handshape::cup, .palm = v(-0.7f, -0.7f, 0.2f), .fingers = v(-0.6f, 0.35f, 0.8f),
-     .place = v(0.16f, -0.04f, 0.25f), .move = v(0.0f, -0.05f, 0.03f), .movement = arc, .size = 0.02f, .side = kForward},
-    {.gloss = "LISTE", .hands = Hands::left, .shape = Handshape::three, .palm = kBack, .fingers = v(-0.9f, 0.25f, 0.35f),
-     .place = v(0.19f, -0.15f, 0.24f), .move = v(-0.03f, 0.02f, 0.02f)},
-    {.gloss = "PREMIER", .shape = Handshape::index, .palm = v(0.1f, -1, 0.2f), .fingers = v(-0.9f, -0.1f, 0.4f),
-     .place = v(0.08f, 0.075f, 0.19f), .move = v(-0.03f, -0.045f, 0.02f)},
-    {.gloss = "DEUXIEME", .shape = Handshape::index, .palm = v(-0.2f, -1, 0.1f), .fingers = v(-0.75f, -0.1f, 0.65f),
-     .place = v(0.17f, 0.03f, 0.19f), .move = v(-0.04f, -0.05f, 0.01f)},
-    {.gloss = "TROISIEME", .shape = Handshape::index, .palm = v(-0.2f, -1, 0.1f), .fingers = v(-0.75f, 0.0f, 0.65f),
-     .place = v(0.20f, -0.045f, 0.19f), .move = v(-0.045f, -0.02f, 0.02f)},
+    {.gloss = "REGION", .hands = Hands::left, .shape = Handshape::cup, .palm = vec(-0.7f, -0.7f, 0.2f), .fingers = vec(-0.6f, 0.35f, 0.8f),
+     .place = vec(0.16f, -0.04f, 0.25f), .move = vec(0.0f, -0.05f, 0.03f), .movement = arc, .size = 0.02f, .side = kAhead},
+    {.gloss = "LISTE", .hands = Hands::left, .shape = Handshape::three, .palm = kBackward, .fingers = vec(-0.9f, 0.25f, 0.35f),
+     .place = vec(0.19f, -0.15f, 0.24f), .move = vec(-0.03f, 0.02f, 0.02f)},
+    {.gloss = "PREMIER", .shape = Handshape::index, .palm = vec(0.1f, -1, 0.2f), .fingers = vec(-0.9f, -0.1f, 0.4f),
+     .place = vec(0.08f, 0.075f, 0.19f), .move = vec(-0.03f, -0.045f, 0.02f)},
+    {.gloss = "DEUXIEME", .shape = Handshape::index, .palm = vec(-0.2f, -1, 0.1f), .fingers = vec(-0.75f, -0.1f, 0.65f),
+     .place = vec(0.17f, 0.03f, 0.19f), .move = vec(-0.04f, -0.05f, 0.01f)},
+    {.gloss = "TROISIEME", .shape = Handshape::index, .palm = vec(-0.2f, -1, 0.1f), .fingers = vec(-0.75f, 0.0f, 0.65f),
+     .place = vec(0.20f, -0.045f, 0.19f), .move = vec(-0.045f, -0.02f, 0.02f)},
 
     // Touching the other hand, the chin, the chest.
-    {.gloss = "CARTE", .hands = Hands::mirrored, .shape = Handshape::index, .palm = v(-0.1f, -1, 0.1f), .fingers = v(-0.8f, 0.3f, 0.5f),
-     .place = v(0.152f, 0.02f, 0.24f), .move = v(0.10f, -0.12f, 0.01f), .movement = arc, .size = 0.04f, .side = kOut},
-    {.gloss = "SOMMET", .hands = Hands::on_base, .shape = Handshape::index, .palm = v(-0.1f, -1, -0.3f), .fingers = v(-0.65f, -0.3f, 0.65f),
-     .place = v(0.157f, 0.05f, 0.212f), .move = v(-0.05f, -0.08f, 0.015f),
-     .base = {Handshape::flat, v(-0.7f, -0.5f, 0.1f), v(-0.5f, 0.8f, 0.3f), v(0.16f, -0.18f, 0.25f)}},
-    {.gloss = "PARLER", .shape = Handshape::index, .palm = v(-0.3f, -0.2f, -1), .fingers = v(-0.5f, 0.8f, -0.35f),
-     .fingers_end = v(-0.5f, 0.8f, 0.3f),
-     .place = v(0.055f, -0.06f, 0.148f), .move = v(0.05f, 0.0f, 0.11f), .movement = arc, .size = 0.02f, .side = kUp},
-    {.gloss = "MOI", .shape = Handshape::flat, .palm = kBack, .fingers = v(-0.95f, 0.25f, -0.2f),
-     .place = v(0.18f, -0.16f, 0.225f), .move = v(-0.01f, 0.0f, -0.06f)},
+    {.gloss = "CARTE", .hands = Hands::mirrored, .shape = Handshape::index, .palm = vec(-0.1f, -1, 0.1f), .fingers = vec(-0.8f, 0.3f, 0.5f),
+     .place = vec(0.152f, 0.02f, 0.24f), .move = vec(0.10f, -0.12f, 0.01f), .movement = arc, .size = 0.04f, .side = kOutward},
+    {.gloss = "SOMMET", .hands = Hands::on_base, .shape = Handshape::index, .palm = vec(-0.1f, -1, -0.3f), .fingers = vec(-0.65f, -0.3f, 0.65f),
+     .place = vec(0.157f, 0.05f, 0.212f), .move = vec(-0.05f, -0.08f, 0.015f),
+     .base = {Handshape::flat, vec(-0.7f, -0.5f, 0.1f), vec(-0.5f, 0.8f, 0.3f), vec(0.16f, -0.18f, 0.25f)}},
+    {.gloss = "PARLER", .shape = Handshape::index, .palm = vec(-1, -0.4f, -0.5f), .fingers = vec(-0.45f, 0.8f, -0.45f),
+     .fingers_end = vec(-0.5f, 0.8f, 0.3f),
+     .place = vec(0.07f, 0.003f, 0.135f), .move = vec(0.05f, 0.0f, 0.11f), .movement = arc, .size = 0.02f, .side = kUpward},
+    {.gloss = "MOI", .shape = Handshape::flat, .palm = kBackward, .fingers = vec(-0.95f, 0.25f, -0.2f),
+     .place = vec(0.18f, -0.16f, 0.225f), .move = vec(-0.01f, 0.0f, -0.06f)},
 
     // Questions and answers.
-    {.gloss = "PLEUVOIR", .hands = Hands::mirrored, .shape = Handshape::fan, .palm = v(-0.2f, -0.8f, 0.6f), .fingers = v(-0.1f, 0.7f, 0.8f),
-     .place = v(0.17f, 0.07f, 0.26f), .move = v(0.01f, -0.16f, 0.03f), .movement = repeated, .times = 2},
-    {.gloss = "OU", .hands = Hands::mirrored, .shape = Handshape::spread, .palm = v(-0.2f, 1, 0.1f), .fingers = v(-0.1f, 0.1f, 1),
-     .place = v(0.18f, -0.10f, 0.24f), .move = v(0.03f, 0.0f, 0.0f), .movement = circle, .size = 0.03f, .side = kUp},
-    {.gloss = "QUAND", .shape = Handshape::corner, .palm = v(-0.5f, 0, 0.8f), .fingers = v(-0.1f, 1, 0.3f),
-     .place = v(0.18f, 0.03f, 0.25f), .move = v(0.02f, -0.02f, 0.01f), .movement = twist, .times = 2},
-    {.gloss = "NON", .shape = Handshape::index, .palm = v(-0.3f, 0, 1), .fingers = v(-0.1f, 1, 0.1f),
-     .place = v(0.19f, 0.02f, 0.26f), .move = v(0.02f, 0.0f, 0.02f), .movement = zigzag, .size = 0.03f, .side = kOut, .times = 2},
-    {.gloss = "OUI", .shape = Handshape::fist, .palm = v(-0.4f, -0.2f, 0.9f), .fingers = v(-0.1f, 1, 0.4f),
-     .place = v(0.19f, -0.01f, 0.26f), .move = v(0.01f, -0.03f, 0.02f), .movement = nod, .times = 2},
+    {.gloss = "PLEUVOIR", .hands = Hands::mirrored, .shape = Handshape::fan, .palm = vec(-0.2f, -0.8f, 0.6f), .fingers = vec(-0.1f, 0.7f, 0.8f),
+     .place = vec(0.17f, 0.07f, 0.26f), .move = vec(0.01f, -0.16f, 0.03f), .movement = repeated, .times = 2},
+    {.gloss = "OU", .hands = Hands::mirrored, .shape = Handshape::spread, .palm = vec(-0.2f, 1, 0.1f), .fingers = vec(-0.1f, 0.1f, 1),
+     .place = vec(0.18f, -0.10f, 0.24f), .move = vec(0.03f, 0.0f, 0.0f), .movement = circle, .size = 0.03f, .side = kUpward},
+    {.gloss = "QUAND", .shape = Handshape::corner, .palm = vec(-0.5f, 0, 0.8f), .fingers = vec(-0.1f, 1, 0.3f),
+     .place = vec(0.18f, 0.03f, 0.25f), .move = vec(0.02f, -0.02f, 0.01f), .movement = twist, .times = 2},
+    {.gloss = "NON", .shape = Handshape::index, .palm = vec(-0.3f, 0, 1), .fingers = vec(-0.1f, 1, 0.1f),
+     .place = vec(0.19f, 0.02f, 0.26f), .move = vec(0.02f, 0.0f, 0.02f), .movement = zigzag, .size = 0.03f, .side = kOutward, .times = 2},
+    {.gloss = "OUI", .shape = Handshape::fist, .palm = vec(-0.4f, -0.2f, 0.9f), .fingers = vec(-0.1f, 1, 0.4f),
+     .place = vec(0.19f, -0.01f, 0.26f), .move = vec(0.01f, -0.03f, 0.02f), .movement = nod, .times = 2},
 };
 // clang-format on
 
@@ -70,9 +70,9 @@ constexpr SignTouch kTouches[] = {
 };
 
 const SignShape& described(std::string_view gloss) {
-  const auto row =
-      std::find_if(std::begin(kTable), std::end(kTable), [&](const SignShape& sign) { return sign.gloss == gloss; });
-  return row != std::end(kTable) ? *row : sign_for(gloss);
+  const auto row = std::find_if(std::begin(kChannelTable), std::end(kChannelTable),
+                                [&](const SignShape& sign) { return sign.gloss == gloss; });
+  return row != std::end(kChannelTable) ? *row : sign_for(gloss);
 }
 
 std::map<std::pair<std::string_view, Side>, SignShape> all_signs() {
@@ -85,7 +85,7 @@ std::map<std::pair<std::string_view, Side>, SignShape> all_signs() {
       signs.emplace(std::pair(row.gloss, side), sign);
     }
   };
-  for (const SignShape& row : kTable) add(row);
+  for (const SignShape& row : kChannelTable) add(row);
   for (const SignShape& row : sign_table()) add(row);
   return signs;
 }
@@ -93,7 +93,7 @@ std::map<std::pair<std::string_view, Side>, SignShape> all_signs() {
 }  // namespace
 
 std::span<const SignShape> channel_sign_table() {
-  return kTable;
+  return kChannelTable;
 }
 
 std::span<const SignTouch> channel_touches() {

@@ -117,7 +117,8 @@ FaceMotion face_of(const ChannelTimeline& timeline, Random& random);
 void turn_heads(const ChannelTimeline& timeline, std::vector<BodyFrame>& body);
 
 /// A recording of that script. `timeline` is the dominant hand's. The face's tracks include the directions of the eyes
-/// (eyeLookInLeft, …). The truth is that of make_recording. `unrest` as in `plan_of`.
+/// (eyeLookInLeft, …). The truth is that of make_recording, right hand first, except that a hand
+/// that touches something is some centimetres from the planned wrist. `unrest` as in `plan_of`.
 SyntheticRecording make_channels(const ChannelScript& script, FrameRate rate, std::uint64_t seed, float unrest = 1);
 
 }  // namespace signweave::demo

@@ -9,7 +9,7 @@
 namespace signweave::demo {
 namespace {
 
-struct Letters {
+struct Rule {
   std::string_view letters;
   MouthShape shape;
 };
@@ -23,18 +23,18 @@ constexpr MouthShape kShut{.close = 0.15f, .press = 0.95f, .length = 1.2f};
 constexpr MouthShape kLip{.jaw = 0.06f, .funnel = 0.10f, .press = 0.35f};
 constexpr MouthShape kTeeth{.jaw = 0.08f, .stretch = 0.30f};
 constexpr MouthShape kTongue{.jaw = 0.18f, .stretch = 0.08f};
-constexpr MouthShape kBack{.jaw = 0.20f};
+constexpr MouthShape kBehind{.jaw = 0.20f};
 constexpr MouthShape kHush{.jaw = 0.12f, .funnel = 0.55f, .pucker = 0.25f};
 
 /// The longest that fits applies; those without a row are silent.
-constexpr Letters kRules[] = {
-    {"eau", kRound}, {"eil", kWide},  {"oir", kOpen}, {"ain", kWide}, {"au", kRound}, {"ou", kPursed}, {"où", kPursed},
-    {"oi", kOpen},   {"on", kRound},  {"om", kRound}, {"an", kOpen},  {"am", kOpen},  {"en", kOpen},   {"em", kOpen},
-    {"in", kWide},   {"eu", kPursed}, {"ei", kWide},  {"ai", kWide},  {"qu", kBack},  {"ch", kHush},   {"gn", kTongue},
-    {"a", kOpen},    {"à", kOpen},    {"e", kWide},   {"é", kWide},   {"è", kWide},   {"ê", kWide},    {"i", kNarrow},
-    {"y", kNarrow},  {"o", kRound},   {"ô", kRound},  {"u", kPursed}, {"û", kPursed}, {"p", kShut},    {"b", kShut},
-    {"m", kShut},    {"f", kLip},     {"v", kLip},    {"s", kTeeth},  {"z", kTeeth},  {"c", kTeeth},   {"ç", kTeeth},
-    {"t", kTongue},  {"d", kTongue},  {"n", kTongue}, {"l", kTongue}, {"r", kBack},   {"g", kBack},    {"k", kBack},
+constexpr Rule kRules[] = {
+    {"eau", kRound}, {"eil", kWide},  {"oir", kOpen}, {"ain", kWide}, {"au", kRound},  {"ou", kPursed}, {"où", kPursed},
+    {"oi", kOpen},   {"on", kRound},  {"om", kRound}, {"an", kOpen},  {"am", kOpen},   {"en", kOpen},   {"em", kOpen},
+    {"in", kWide},   {"eu", kPursed}, {"ei", kWide},  {"ai", kWide},  {"qu", kBehind}, {"ch", kHush},   {"gn", kTongue},
+    {"a", kOpen},    {"à", kOpen},    {"e", kWide},   {"é", kWide},   {"è", kWide},    {"ê", kWide},    {"i", kNarrow},
+    {"y", kNarrow},  {"o", kRound},   {"ô", kRound},  {"u", kPursed}, {"û", kPursed},  {"p", kShut},    {"b", kShut},
+    {"m", kShut},    {"f", kLip},     {"v", kLip},    {"s", kTeeth},  {"z", kTeeth},   {"c", kTeeth},   {"ç", kTeeth},
+    {"t", kTongue},  {"d", kTongue},  {"n", kTongue}, {"l", kTongue}, {"r", kBehind},  {"g", kBehind},  {"k", kBehind},
     {"j", kHush},
 };
 
@@ -46,9 +46,9 @@ bool is_vowel(char c) {
   return std::string_view("aeiouy").find(c) != std::string_view::npos || static_cast<unsigned char>(c) >= 0x80;
 }
 
-const Letters* rule_at(std::string_view rest) {
-  const Letters* best = nullptr;
-  for (const Letters& rule : kRules) {
+const Rule* rule_at(std::string_view rest) {
+  const Rule* best = nullptr;
+  for (const Rule& rule : kRules) {
     if (!rest.starts_with(rule.letters)) continue;
     // "an" before a vowel or a second n is a, then n.
     const char after = rest.size() > rule.letters.size() ? rest[rule.letters.size()] : ' ';
@@ -80,7 +80,7 @@ std::vector<MouthShape> mouth_shapes(std::string_view word) {
     text.remove_prefix(std::min(end + 1, text.size()));
     char before = ' ';
     while (!rest.empty()) {
-      const Letters* rule = rule_at(rest);
+      const Rule* rule = rule_at(rest);
       const std::size_t size = rule == nullptr ? 1 : rule->letters.size();
       const bool twice = size == 1 && rest[0] == before;  // a doubled letter
       if (rule != nullptr && !twice) shapes.push_back(rule->shape);

@@ -105,12 +105,14 @@ struct SignCall {
 
 template <class Visit>
 void fields(Visit& visit, SignCall& call) {
-  visit(Field{.name = "utterance",
-              .help = "glosses separated by blanks; \"LE MANS\" quoted, MATIN#3 one token, \"NAME\"@1200..3400 a piece "
-                      "of a recording, , and . pauses, [A | weak: B] two hands, A{mouth \"a\"} and {brows up: A B} the face",
-              .words = "UTTERANCE",
-              .required = true},
-        call.utterance);
+  visit(
+      Field{.name = "utterance",
+            .help =
+                "glosses separated by blanks; \"LE MANS\" quoted, MATIN#3 one token, \"NAME\"@1200..3400 a piece "
+                "of a recording, , and . pauses, [A | weak: B] two hands, A{mouth \"a\"} and {brows up: A B} the face",
+            .words = "UTTERANCE",
+            .required = true},
+      call.utterance);
   visit(
       Field{.name = "missing",
             .help = "of glosses that are not there: explain and sign nothing, or fold (take the one gloss that differs "

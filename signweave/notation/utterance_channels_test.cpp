@@ -150,6 +150,23 @@ TEST(UtteranceChannels, AGlossOfTheDatabaseIsThatGloss) {
             std::vector{part(BodyPart::weak, {gloss("D]")}, 2)});
 }
 
+TEST(UtteranceChannels, FewAndShortBeginningsOfAWordAreTriedAsGlosses) {
+  std::size_t calls = 0;
+  std::size_t longest = 0;
+  const UtteranceWords counted{.is_gloss =
+                                   [&](std::string_view word) {
+                                     ++calls;
+                                     longest = std::max(longest, word.size());
+                                     return false;
+                                   },
+                               .is_expression = {}};
+  read_utterance("A" + std::string(900, ']'), counted);
+  EXPECT_EQ(calls, 16U);
+  EXPECT_EQ(longest, 16U);
+  read_utterance("A]" + std::string(990, 'A') + "]" + std::string(100, 'A') + "] B", counted);
+  EXPECT_EQ(longest, 992U);
+}
+
 TEST(UtteranceChannels, OnlyTheWordsOfTheirFunctionAreExpressions) {
   const UtteranceWords known{.is_gloss = {}, .is_expression = [](std::string_view name) { return name == "brows up"; }};
   EXPECT_EQ(fault_in("{brows  up: A}", known), "A{brows up}");
@@ -172,6 +189,9 @@ TEST(UtteranceChannels, HasACanonicalText) {
             "{topic; gaze @left: A B} , {neg +0 -40: [C D | weak: E]}");
   EXPECT_EQ(fault_in("A{a ..+1} B{b ..+1} C"), "{a: A B{b ..+1}} C");
   EXPECT_EQ(fault_in("A{weak ..+1: X} B{weak: Y}"), "[A B{weak: Y} | weak: X]");
+  EXPECT_EQ(fault_in("A{a ..+1} [B C | weak: X]"), "A{a ..+1} [B C | weak: X]");
+  EXPECT_EQ(fault_in("[A B{a ..+1} | weak: X] C"), "[A B{a ..+1} | weak: X] C");
+  EXPECT_EQ(fault_in("[{a: A B} C | weak: X]{b}"), "{b: [{a: A B} C | weak: X]}");
 }
 
 TEST(UtteranceChannels, EachFaultHasItsSpan) {

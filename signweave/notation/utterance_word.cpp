@@ -20,10 +20,10 @@ struct CharClass {
 };
 using CharClasses = std::array<CharClass, 256>;
 
-constexpr CharClasses classes_of(std::string_view ending) {
+constexpr CharClasses classes_of(std::string_view characters) {
   CharClasses classes{};
   for (const char c : std::string_view(" \t\n\v\f\r")) classes[static_cast<unsigned char>(c)].blank = true;
-  for (const char c : ending) classes[static_cast<unsigned char>(c)].ends = true;
+  for (const char c : characters) classes[static_cast<unsigned char>(c)].ends = true;
   return classes;
 }
 constexpr std::array<CharClasses, 5> kClasses = {classes_of("[]{}"), classes_of("[]{}"), classes_of("[]{}|"),

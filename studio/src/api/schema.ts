@@ -656,6 +656,30 @@ export interface components {
       readonly junctions: readonly components['schemas']['ScoreJunction'][]
       readonly lanes: readonly components['schemas']['ScoreLane'][]
     }
+    /** @description ties the stroke of a part's sign to that of the place */
+    readonly UtteranceSync: {
+      /** @enum {string} */
+      readonly anchor: 'begin' | 'end'
+      readonly offset_ms: number
+    }
+    readonly UtteranceSign: {
+      readonly gloss?: string
+      /** @description missing: any */
+      readonly token?: number
+      /** @description of a piece, in place of a gloss */
+      readonly recording?: string
+      readonly from_ms?: number
+      readonly to_ms?: number
+      readonly sync?: readonly components['schemas']['UtteranceSync'][]
+    }
+    /** @description what a part of the signer does meanwhile */
+    readonly UtterancePart: {
+      /** @enum {string} */
+      readonly part: 'dominant' | 'weak' | 'right' | 'left' | 'dominant fingers' | 'weak fingers' | 'right fingers' | 'left fingers' | 'head'
+      /** @description the number of places that it accompanies */
+      readonly places: number
+      readonly signs: readonly components['schemas']['UtteranceSign'][]
+    }
     readonly UtterancePlace: {
       readonly gloss?: string
       /** @description missing: any */
@@ -669,12 +693,43 @@ export interface components {
        * @enum {string}
        */
       readonly pause?: 'comma' | 'stop'
+      /**
+       * @description the hand that signs it as the dominant one; missing: the signer's
+       * @enum {string}
+       */
+      readonly dominant?: 'left' | 'right'
+      /** @description missing: none */
+      readonly parts?: readonly components['schemas']['UtterancePart'][]
       readonly begin: number
       readonly end: number
     }
+    /** @description a hand that keeps its pose at the end of a place */
+    readonly UtteranceHold: {
+      /** @enum {string} */
+      readonly hand: 'dominant' | 'weak' | 'right' | 'left'
+      /** @description the place, from 0 */
+      readonly from: number
+      /** @description the place with which it ends */
+      readonly until: number
+    }
+    /** @description a movement of the face, the gaze or the head over places */
+    readonly UtteranceNonManual: {
+      /** @enum {string} */
+      readonly kind: 'expression' | 'mouthing' | 'gaze'
+      /** @description the expression, the text to be mouthed, or the direction */
+      readonly what: string
+      /** @description the place, from 0 */
+      readonly first: number
+      /** @description inclusive */
+      readonly last: number
+      /** @description added to its usual begin */
+      readonly begin_ms: number
+      /** @description added to its usual end */
+      readonly end_ms: number
+    }
     readonly UtteranceFault: {
       /** @enum {string} */
-      readonly code: 'open_quote' | 'empty_name' | 'bad_suffix' | 'token_zero' | 'piece_order' | 'too_long'
+      readonly code: 'open_quote' | 'empty_name' | 'bad_suffix' | 'token_zero' | 'piece_order' | 'too_long' | 'open_bracket' | 'stray_bracket' | 'nested_bracket' | 'too_deep' | 'empty_group' | 'unknown_part' | 'repeated_part' | 'bad_option' | 'unknown_expression' | 'bad_sync' | 'pause_in_part' | 'nothing_to_hold' | 'no_such_place' | 'long_mouthing'
       readonly message: string
       readonly line: number
       readonly column: number
@@ -691,6 +746,12 @@ export interface components {
        * @enum {string}
        */
       readonly pause?: 'comma' | 'stop'
+      /** @description missing: none */
+      readonly holds?: readonly components['schemas']['UtteranceHold'][]
+      /** @description missing: none */
+      readonly non_manuals?: readonly components['schemas']['UtteranceNonManual'][]
+      /** @description text that is read as the same utterance; missing with faults */
+      readonly canonical?: string
       /** @description the first 20 */
       readonly faults: readonly components['schemas']['UtteranceFault'][]
     }
@@ -1053,7 +1114,12 @@ export type ScoreTransition = components['schemas']['ScoreTransition']
 export type ScoreItem = components['schemas']['ScoreItem']
 export type ScoreLane = components['schemas']['ScoreLane']
 export type Score = components['schemas']['Score']
+export type UtteranceSync = components['schemas']['UtteranceSync']
+export type UtteranceSign = components['schemas']['UtteranceSign']
+export type UtterancePart = components['schemas']['UtterancePart']
 export type UtterancePlace = components['schemas']['UtterancePlace']
+export type UtteranceHold = components['schemas']['UtteranceHold']
+export type UtteranceNonManual = components['schemas']['UtteranceNonManual']
 export type UtteranceFault = components['schemas']['UtteranceFault']
 export type UtteranceText = components['schemas']['UtteranceText']
 export type Removed = components['schemas']['Removed']

@@ -157,9 +157,9 @@ ApiResponse sign_utterance(Call& call) {
   const std::string format = wanted_format(call, asked, synthesis_formats());
   require_sheet(sign.how.signing_space, format);
   const Database& database = call.database().database();
-  const std::size_t places = parse_utterance(sign.utterance, words_of(database)).places.size();
-  if (places > call.state.limits.glosses) {
-    throw too_large(fmt::format("the utterance has {} places; the limit is {}", places, call.state.limits.glosses));
+  const std::size_t signs = count_signs(parse_utterance(sign.utterance, words_of(database)));
+  if (signs > call.state.limits.glosses) {
+    throw too_large(fmt::format("the utterance has {} signs; the limit is {}", signs, call.state.limits.glosses));
   }
   calls::report_damage(database, call.listener());
   return deliver(call, calls::run(database, sign, call.state.limits.frames), sign.how, calls::title_of(database, sign),

@@ -29,7 +29,8 @@ bool is_there(const Place& place, const Segments& segments) {
 
 /// True if a place may be one word of a gloss of several: it has neither token, pause nor quotes.
 bool is_word(const Place& place, bool first) {
-  return place.kind == Place::Kind::gloss && place.gloss.token == 0 && (first || place.pause_before == Milliseconds(0));
+  return place.kind == Place::Kind::gloss && place.gloss.token == 0 && place.parts.empty() &&
+         (first || place.pause_before == Milliseconds(0));
 }
 
 /// The longest gloss formed by several places from this one, at least one of which is missing; or none.
@@ -79,13 +80,31 @@ std::vector<MissingGloss> missing_of(const Utterance& utterance, const Segments&
 /// The utterance with missing glosses replaced by their first match; those without a match are unchanged.
 Utterance suggestion_for(const Utterance& utterance, const std::vector<MissingGloss>& missing) {
   Utterance result;
+  std::vector<std::size_t> now_at(utterance.places.size());  // [place] its number in the result
   auto next = missing.begin();
   for (std::size_t i = 0; i < utterance.places.size(); ++i) {
+    now_at[i] = result.places.size();
     result.places.push_back(utterance.places[i]);
     if (next == missing.end() || next->place != i) continue;
     if (!next->matches.empty()) result.places.back().gloss.gloss = next->matches.front();
-    i += next->places - 1;
+    for (std::size_t joined = 1; joined < next->places; ++joined) now_at[++i] = result.places.size() - 1;
     ++next;
+  }
+  for (std::size_t i = 0; i < utterance.places.size(); ++i) {
+    for (PlacePart& part : result.places[now_at[i]].parts) {
+      if (utterance.places[i].parts.empty()) break;
+      const std::size_t last = std::min(i + part.places, utterance.places.size()) - 1;
+      part.places = now_at[last] - now_at[i] + 1;
+    }
+  }
+  for (const HandHold& held : utterance.holds) {
+    result.holds.push_back({.hand = held.hand, .from = now_at[held.from], .until = now_at[held.until]});
+  }
+  std::erase_if(result.holds, [](const HandHold& held) { return held.from == held.until; });
+  for (NonManual one : utterance.non_manuals) {
+    one.first = now_at[one.first];
+    one.last = now_at[one.last];
+    result.non_manuals.push_back(std::move(one));
   }
   return result;
 }

@@ -83,6 +83,9 @@ TEST(MissingGlosses, AreFoldedIfExactlyOneGlossMatches) {
   for (const Notice& notice : notices) said.push_back(notice.text);
   EXPECT_THAT(said,
               ElementsAre("'vannes' is signed as VANNES", "'le mans' is signed as LE MANS", "'ete' is signed as ÉTÉ"));
+  const Utterance in_channels = parse_utterance("{neg: le mans vannes} MATIN{weak hold ..+1} ete");
+  EXPECT_EQ(to_string(with_folded_glosses(in_channels, corpus(), notices)),
+            "{neg: \"LE MANS\" VANNES} MATIN{weak hold ..+1} ÉTÉ");
   EXPECT_THROW(with_folded_glosses(parse_utterance("vanes"), corpus(), notices), MissingGlosses)
       << "similar is not the same";
   EXPECT_THROW(with_folded_glosses(parse_utterance("deja"), corpus(), notices), MissingGlosses) << "two glosses match";

@@ -124,6 +124,15 @@ struct Utterance {
   friend bool operator==(const Utterance&, const Utterance&) = default;
 };
 
+/// The number of signs in an utterance: of its places and of their parts.
+inline std::size_t count_signs(const Utterance& utterance) {
+  std::size_t count = utterance.places.size();
+  for (const Place& place : utterance.places) {
+    for (const PlacePart& part : place.parts) count += part.signs.size();
+  }
+  return count;
+}
+
 /// The position of a word in the text of an utterance, in bytes; half-open.
 struct WordSpan {
   std::size_t begin = 0;

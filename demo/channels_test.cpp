@@ -54,10 +54,10 @@ double at(const std::vector<float>& values, std::int64_t frame) {
   return static_cast<double>(values.at(static_cast<std::size_t>(frame)));
 }
 
-struct Posed {
+struct PosedSigner {
   Signer signer = make_signer();
   ModelPose pose;
-  Posed(const SyntheticRecording& made, std::int64_t frame)
+  PosedSigner(const SyntheticRecording& made, std::int64_t frame)
       : pose(to_model_space(made.motion.skeleton(), made.motion.pose(frame))) {}
   Vector3f place(JointIndex joint) const { return pose.positions[static_cast<std::size_t>(joint)]; }
   Vector3f at(JointIndex joint, const Vector3f& offset) const {
@@ -104,7 +104,7 @@ std::vector<HeldSpan> holds(const SyntheticRecording& made) {
 float extent(const SyntheticRecording& made, Side side, FrameRange span) {
   Eigen::AlignedBox3f box;
   for (std::int64_t frame = span.begin; frame < span.end; ++frame) {
-    const Posed posed(made, frame);
+    const PosedSigner posed(made, frame);
     box.extend(posed.in_chest(posed.palm(side)));
   }
   return box.diagonal().norm();
@@ -157,7 +157,7 @@ TEST(ChannelRecordings, KeepAHeldHandStillRelativeToTheChestWhileTheOtherSigns) 
 }
 
 /// The distance between the two that a label of the tier Contact names, metres.
-float distance(const Posed& posed, const std::string& label) {
+float distance(const PosedSigner& posed, const std::string& label) {
   static const std::vector<std::string> kFingerNames = {"thumb", "index", "middle finger"};
   const auto tip_of = [&](const std::string& name) {
     const Side side = name.starts_with("left") ? Side::left : Side::right;
@@ -179,11 +179,11 @@ TEST(ChannelRecordings, TouchDuringTheirContactsAndNotElsewhere) {
     const bool skin = contact.label.ends_with("chin") || contact.label.ends_with("chest");
     const FrameRange span = frames(contact.span);
     for (std::int64_t frame = span.begin; frame <= span.end; ++frame) {
-      EXPECT_NEAR(distance(Posed(made_mains(), frame), contact.label), skin ? 0.009f : 0.017f, 1e-3f)
+      EXPECT_NEAR(distance(PosedSigner(made_mains(), frame), contact.label), skin ? 0.009f : 0.017f, 1e-3f)
           << contact.label << ' ' << frame;
     }
-    const float before = distance(Posed(made_mains(), span.begin - 35), contact.label);
-    const float after = distance(Posed(made_mains(), span.end + 35), contact.label);
+    const float before = distance(PosedSigner(made_mains(), span.begin - 35), contact.label);
+    const float after = distance(PosedSigner(made_mains(), span.end + 35), contact.label);
     EXPECT_GT(std::max(before, after), 0.05f) << contact.label << ' ' << span.begin;
     kinds.insert(contact.label);
   }
@@ -197,8 +197,8 @@ double correlation(const SyntheticRecording& made, std::string_view gloss) {
     if (sign.gloss != gloss || sign.hand != Hand::right) continue;
     const FrameRange span = frames(sign.stroke_span().value());
     for (std::int64_t frame = span.begin; frame < span.end; ++frame) {
-      const Posed now(made, frame);
-      const Posed next(made, frame + 1);
+      const PosedSigner now(made, frame);
+      const PosedSigner next(made, frame + 1);
       const Vector3f r = next.palm(Side::right) - now.palm(Side::right);
       Vector3f l = next.palm(Side::left) - now.palm(Side::left);
       l.x() = -l.x();
@@ -218,7 +218,7 @@ double share_of_left(const SyntheticRecording& made, std::string_view gloss) {
     const FrameRange span = frames(sign.stroke_span().value());
     for (std::int64_t frame = span.begin; frame < span.end; ++frame) {
       for (const Side side : kSides) {
-        const Vector3f step = Posed(made, frame + 1).palm(side) - Posed(made, frame).palm(side);
+        const Vector3f step = PosedSigner(made, frame + 1).palm(side) - PosedSigner(made, frame).palm(side);
         paths[static_cast<std::size_t>(side)] += static_cast<double>(step.norm());
       }
     }
@@ -312,7 +312,7 @@ TEST(ChannelRecordings, MouthWordsWithinTheirSpansOnly) {
 }
 
 double head_yaw(const SyntheticRecording& made, std::int64_t frame) {
-  const Posed posed(made, frame);
+  const PosedSigner posed(made, frame);
   const Vector3f facing = posed.pose.rotations[static_cast<std::size_t>(posed.signer.head)] * Vector3f::UnitZ();
   return std::atan2(static_cast<double>(facing.x()), static_cast<double>(facing.z()));
 }

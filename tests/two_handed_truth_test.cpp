@@ -16,6 +16,7 @@ namespace {
 Hands planned(const demo::SignShape& sign) {
   switch (sign.hands) {
     case demo::Hands::one:
+    case demo::Hands::left:
       return Hands::one;
     case demo::Hands::mirrored:
       return Hands::symmetric;

@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "signweave/kv/test_folder.h"
 #include "signweave/database/test_signing.h"
+#include "signweave/kv/test_folder.h"
 #include "signweave/rig/test_rig.h"
 
 namespace signweave {

@@ -18,9 +18,12 @@ constexpr float kStillTurn = 2 * kDegree;
 /// A direction to the left that differs by more than this from the signer's in the poses is one of another space.
 /// (ours)
 constexpr float kContradicts = 25 * kDegree;
-/// A direction to the left this near to a coordinate axis is that axis: measured offsets are not quite symmetric.
-/// (ours)
-constexpr float kSnapped = 15 * kDegree;
+/// The same for neck and head, which may be turned aside throughout a recording. (ours)
+constexpr float kHeadContradicts = 50 * kDegree;
+/// A direction to the left this near to a coordinate axis is that axis, because measured offsets and poses are not
+/// quite symmetric, poses less so. (ours)
+constexpr float kSnappedOffset = 15 * kDegree;
+constexpr float kSnappedPose = 30 * kDegree;
 /// Bones that miss the mirror image of the other side's by more than this show that axes are those of another space.
 /// (ours)
 constexpr float kMisfit = 25 * kDegree;
@@ -35,6 +38,14 @@ float turn_angle(const Quaternionf& a, const Quaternionf& b) {
 /// The angle between two lines, radians in [0, π/2]; 0 for a zero vector.
 float line_angle(const Vector3f& a, const Vector3f& b) {
   return std::atan2(a.cross(b).norm(), std::abs(a.dot(b)));
+}
+
+/// The coordinate axis that is within an angle of a direction, else the direction.
+Vector3f snapped_to_axis(const Vector3f& direction, float within) {
+  Eigen::Index most = 0;
+  direction.cwiseAbs().maxCoeff(&most);
+  const Vector3f axis = std::copysign(1.0f, direction[most]) * Vector3f::Unit(most);
+  return line_angle(axis, direction) < within ? axis : direction;
 }
 
 /// Half a turn about an axis of length 1.
@@ -127,15 +138,13 @@ class Pairing {
   /// The unit vector from right to left at rest.
   Vector3f left_at_rest() const {
     Vector3f left = axes_.trunk() * Vector3f::UnitY();
-    for (const Part part : {Part::left_clavicle, Part::left_thigh, Part::left_upper_arm}) {
+    // The last pair counts: clavicles, which grow from the chest itself, else shoulders.
+    for (const Part part : {Part::left_thigh, Part::left_upper_arm, Part::left_clavicle}) {
       if (!rig_.has(part) || !rig_.has(of(Side::right, part))) continue;
       const Vector3f across = axes_.place(part) - axes_.place(of(Side::right, part));
       if (across.norm() > 2 * kSameOffset) left = across.normalized();
     }
-    Eigen::Index most = 0;
-    left.cwiseAbs().maxCoeff(&most);
-    const Vector3f axis = std::copysign(1.0f, left[most]) * Vector3f::Unit(most);
-    return line_angle(axis, left) < kSnapped ? axis : left;
+    return snapped_to_axis(left, kSnappedOffset);
   }
 
   /// The turn that a part's axes give.
@@ -175,11 +184,17 @@ class Pairing {
     return (usual_[at(joint)].mean.conjugate() * parent_turn(joint) * usual_[at(from)].mean).normalized();
   }
 
+  bool is_above_chest(JointIndex joint) const {
+    return rig_.has(Part::neck) ? is_below(joint, rig_[Part::neck].joint)
+                                : rig_.has(Part::head) && is_below(joint, rig_[Part::head].joint);
+  }
+
   void set_middle(JointIndex joint, Quaternionf turn) {
-    const Vector3f& usual = usual_[at(joint)].left;
+    const Vector3f usual = snapped_to_axis(usual_[at(joint)].left, kSnappedPose);
     if (misfit(joint, joint, turn) > kMisfit) {
       turn = turn_about(left_of_children(joint));
-    } else if (line_angle(usual, turn.vec()) > kContradicts && misfit(joint, joint, turn_about(usual)) <= kMisfit) {
+    } else if (line_angle(usual, turn.vec()) > (is_above_chest(joint) ? kHeadContradicts : kContradicts) &&
+               misfit(joint, joint, turn_about(usual)) <= kMisfit) {
       turn = turn_about(usual);
     }
     found_[at(joint)] = {joint, turn};

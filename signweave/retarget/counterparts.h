@@ -36,7 +36,7 @@ std::vector<UsualRotation> usual_rotations(const Motion& motion);
 /// sides may have different rest spaces. Without axes it follows from the usual rotation of joints that are still, else
 /// from the parent's. Bones to a pair of children that the axes miss by more than 25° show that the joint has a space
 /// of its own, which then follows from these bones or from the usual rotation; of a joint in the middle without such
-/// bones, so does a usual direction to the left that differs by more than 25°.
+/// bones, so does a usual direction to the left that differs by more than 25° (neck and head: 50°).
 std::vector<Counterpart> counterparts(const Skeleton& skeleton, const RigMap& rig, JointIndex top,
                                       const std::vector<UsualRotation>& usual);
 

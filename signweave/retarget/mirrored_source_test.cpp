@@ -206,7 +206,7 @@ TEST(Mirrored, IsTheMirrorImageOfASymmetricSkeleton) {
   expect_same_movement(mirrored(motion, mirroring), expected, "about x = 0");
 }
 
-TEST(Mirrored, TheSignerStaysInPlaceAndFacesTheSameWay) {
+TEST(Mirrored, TheSignerStaysInPlaceAndKeepsFacingTheAddressee) {
   for (const MovingRig& rig : mirrored_rigs()) {
     const RecordedBody body = body_seen(rig.motion);
     const Motion shown = mirrored(rig.motion, mirroring_of(body));

@@ -323,15 +323,15 @@ TEST(ChannelRecordings, ShakeTheHeadWithinTheirSpansOnly) {
   const auto turns = [&](FrameRange span) {
     int count = 0;
     double extreme = head_yaw(made, span.begin);
-    int way = 1;
+    int direction = 1;
     for (std::int64_t frame = span.begin; frame < span.end; ++frame) {
       const double yaw = head_yaw(made, frame);
-      if (way * (extreme - yaw) > 0.087) {
-        way = -way;
+      if (direction * (extreme - yaw) > 0.087) {
+        direction = -direction;
         extreme = yaw;
         ++count;
       }
-      extreme = way > 0 ? std::max(extreme, yaw) : std::min(extreme, yaw);
+      extreme = direction > 0 ? std::max(extreme, yaw) : std::min(extreme, yaw);
     }
     return count;
   };
@@ -354,21 +354,21 @@ TEST(ChannelRecordings, LookAsideWithinTheirSpansOnly) {
     return 35 * (at(track(made, "eyeLookOutLeft"), frame) - at(track(made, "eyeLookInLeft"), frame));
   };
   std::vector<int> aside(static_cast<std::size_t>(made.motion.frame_count()));
-  std::set<std::string> ways;
+  std::set<std::string> directions;
   for (const Annotation& one : tier(made, "Gaze").annotations) {
     const FrameRange span = frames(one.span);
-    ways.insert(one.label);
+    directions.insert(one.label);
     for (std::int64_t frame = span.begin - 30; frame < span.end + 30; ++frame) {
       const bool inside = frame >= span.begin + 12 && frame < span.end - 12;
       aside[static_cast<std::size_t>(frame)] = inside ? (one.label == "left" ? 1 : -1) : 2;
     }
   }
-  EXPECT_EQ(ways, (std::set<std::string>{"left", "right"}));
+  EXPECT_EQ(directions, (std::set<std::string>{"left", "right"}));
   for (std::int64_t frame = 0; frame < made.motion.frame_count(); ++frame) {
-    const int way = aside[static_cast<std::size_t>(frame)];
-    if (std::abs(way) == 1) {
-      ASSERT_GT(way * yaw(frame), 10) << frame;
-    } else if (way == 0) {
+    const int direction = aside[static_cast<std::size_t>(frame)];
+    if (std::abs(direction) == 1) {
+      ASSERT_GT(direction * yaw(frame), 10) << frame;
+    } else if (direction == 0) {
       ASSERT_LT(std::abs(yaw(frame)), 18) << frame;  // a shaken head, and the eyes stay on the viewer
     }
   }

@@ -14,15 +14,15 @@ struct Rule {
   MouthShape shape;
 };
 
-constexpr MouthShape kOpen{.jaw = 0.58f, .stretch = 0.08f, .length = 1.5f};
-constexpr MouthShape kWide{.jaw = 0.26f, .stretch = 0.40f, .length = 1.5f};
-constexpr MouthShape kNarrow{.jaw = 0.12f, .stretch = 0.60f, .length = 1.4f};
+constexpr MouthShape kOpen{.jaw = 0.58f, .wide = 0.08f, .length = 1.5f};
+constexpr MouthShape kWide{.jaw = 0.26f, .wide = 0.40f, .length = 1.5f};
+constexpr MouthShape kNarrow{.jaw = 0.12f, .wide = 0.60f, .length = 1.4f};
 constexpr MouthShape kRound{.jaw = 0.34f, .funnel = 0.70f, .pucker = 0.15f, .length = 1.5f};
 constexpr MouthShape kPursed{.jaw = 0.08f, .funnel = 0.10f, .pucker = 0.85f, .length = 1.4f};
 constexpr MouthShape kShut{.close = 0.15f, .press = 0.95f, .length = 1.2f};
 constexpr MouthShape kLip{.jaw = 0.06f, .funnel = 0.10f, .press = 0.35f};
-constexpr MouthShape kTeeth{.jaw = 0.08f, .stretch = 0.30f};
-constexpr MouthShape kTongue{.jaw = 0.18f, .stretch = 0.08f};
+constexpr MouthShape kTeeth{.jaw = 0.08f, .wide = 0.30f};
+constexpr MouthShape kTongue{.jaw = 0.18f, .wide = 0.08f};
 constexpr MouthShape kBehind{.jaw = 0.20f};
 constexpr MouthShape kHush{.jaw = 0.12f, .funnel = 0.55f, .pucker = 0.25f};
 

@@ -7,7 +7,7 @@ namespace signweave::demo {
 
 /// A shape of the mouth in a mouthed word; weights from 0 to 1 of ARKit's blend shapes.
 struct MouthShape {
-  float jaw = 0, close = 0, funnel = 0, pucker = 0, stretch = 0, press = 0;
+  float jaw = 0, close = 0, funnel = 0, pucker = 0, wide = 0, press = 0;
   float length = 1;  ///< relative to the others of its word
 };
 

@@ -63,7 +63,7 @@ void shape_mouth(Painter& painter, std::int64_t frame, const MouthShape& shape, 
   set(mouthClose, shape.close);
   set(mouthFunnel, shape.funnel);
   set(mouthPucker, shape.pucker);
-  for (const FaceTrack track : {mouthStretchLeft, mouthStretchRight}) set(track, shape.stretch);
+  for (const FaceTrack track : {mouthStretchLeft, mouthStretchRight}) set(track, shape.wide);
   for (const FaceTrack track : {mouthPressLeft, mouthPressRight}) set(track, shape.press);
 }
 

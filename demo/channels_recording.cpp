@@ -114,8 +114,8 @@ void add_eye_tracks(const Signer& signer, Motion& motion) {
   for (const Side side : {Side::left, Side::right}) {
     const std::string suffix = side == Side::left ? "Left" : "Right";
     std::array<ScalarTrack, 4> tracks;  // in, out, up, down
-    static constexpr const char* kWays[] = {"In", "Out", "Up", "Down"};
-    for (std::size_t i = 0; i < tracks.size(); ++i) tracks[i].name = "eyeLook" + (kWays[i] + suffix);
+    static constexpr const char* kDirections[] = {"In", "Out", "Up", "Down"};
+    for (std::size_t i = 0; i < tracks.size(); ++i) tracks[i].name = "eyeLook" + (kDirections[i] + suffix);
     for (std::int64_t frame = 0; frame < motion.frame_count(); ++frame) {
       const auto eye = static_cast<std::size_t>(signer.side(side).eye);
       const Eigen::Vector3f look = motion.pose(frame).rotations[eye] * Eigen::Vector3f::UnitZ();

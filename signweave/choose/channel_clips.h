@@ -17,6 +17,7 @@ struct ClipSync {
   Anchor anchor = Anchor::begin;
   std::size_t with = 0;    ///< number of the whole-body clip
   Milliseconds offset{0};  ///< from its anchor to the same one of the channel's clip
+  bool at_least = false;   ///< the channel's clip may come later
 };
 
 /// A clip that one channel shows instead of some whole-body clips.

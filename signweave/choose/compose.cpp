@@ -95,8 +95,10 @@ class Composer {
 
   std::string name(std::size_t clip) const {
     const MotionClip& one = clips_[clip];
-    return one.signs.empty() ? fmt::format("a piece of '{}'", printable(one.recording))
-                             : fmt::format("'{}'", printable(one.signs.front().gloss));
+    const std::string channel =
+        clip < body_ ? std::string() : fmt::format(" ({})", name_of(parts_.clips[clip - body_].channel));
+    return one.signs.empty() ? fmt::format("a piece of '{}'{}", printable(one.recording), channel)
+                             : fmt::format("'{}'{}", printable(one.signs.front().gloss), channel);
   }
 
   /// The usual length of a transition and its cuts.
@@ -159,7 +161,7 @@ class Composer {
         fmt::format("{} {} {}{}", name(clip), at_end ? "ends with" : "begins with", name(sync.with),
                     sync.offset == Milliseconds(0) ? std::string() : fmt::format(" {:+} ms", sync.offset.count()));
     all.push_back({{sync.with, clip, offset}, text});
-    all.push_back({{clip, sync.with, -offset}, text});
+    if (!sync.at_least) all.push_back({{clip, sync.with, -offset}, text});
   }
 
   void solve() {

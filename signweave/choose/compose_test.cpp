@@ -109,8 +109,10 @@ TEST(ComposeTest, StrokesCanBeginApartAndEndTogether) {
 TEST(ComposeTest, AContradictionNamesWhatCannotBeTrueTogether) {
   ChannelParts parts{{part(Channel::left, sign("X", 2.5f), 1, 1)}, {}};
   parts.clips[0].sync.push_back({.anchor = ClipSync::Anchor::end, .with = 1});
-  EXPECT_THAT(fault(three_signs(), parts),
-              HasSubstr("these cannot all be true: 'X' begins with 'B'; 'X' ends with 'B'; strokes keep their length"));
+  EXPECT_THAT(
+      fault(three_signs(), parts),
+      HasSubstr(
+          "these cannot all be true: 'X' (left) begins with 'B'; 'X' (left) ends with 'B'; strokes keep their length"));
   parts = {{part(Channel::left, sign("X", 2.5f), 1, 1)}, {{.channel = Channel::left, .from = 0, .until = 2}}};
   EXPECT_THAT(fault(three_signs(), parts),
               HasSubstr("the lane 'left' cannot show the held 'A' and 'X' at the same time"));

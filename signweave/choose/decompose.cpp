@@ -146,6 +146,8 @@ void replace_in_hands(const Contents& contents, std::string_view recording,
                       std::span<const HandReplacement> replacements, Decomposed& decomposed) {
   std::map<std::pair<Side, std::size_t>, const HandReplacement*> replaced;
   const std::size_t of_tiers = decomposed.parts.size();
+  const FrameRate rate = contents.at(recording).motion->rate;
+  const auto place_begin = [&](std::size_t place) { return decomposed.choices[place].candidates.front().core.begin; };
   for (const HandReplacement& one : replacements) {
     const Channel channel = one.hand == Side::left ? Channel::left : Channel::right;
     PartChoice* own = nullptr;
@@ -174,12 +176,14 @@ void replace_in_hands(const Contents& contents, std::string_view recording,
                                   .continues = {false}});
       continue;
     }
+    const std::int64_t begin = clips[at]->core.begin;
     own->signs[at] = std::move(candidates);
     own->continues[at] = false;
     if (at + 1 < own->continues.size()) own->continues[at + 1] = false;
-    if (own->sync[at].empty()) {  // it begins when the sign that it replaces began
-      const std::size_t place = place_at(decomposed.choices, clips[at]->core.begin);
-      own->sync[at].push_back({.with = place, .offset = {}});
+    if (own->sync[at].empty()) {  // not before the sign that it replaces
+      const std::size_t place = place_at(decomposed.choices, begin);
+      own->sync[at].push_back(
+          {.with = place, .offset = time_between(place_begin(place), begin, rate), .at_least = true});
     }
   }
 }

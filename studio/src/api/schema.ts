@@ -729,7 +729,27 @@ export interface components {
     }
     readonly UtteranceFault: {
       /** @enum {string} */
-      readonly code: 'open_quote' | 'empty_name' | 'bad_suffix' | 'token_zero' | 'piece_order' | 'too_long' | 'open_bracket' | 'stray_bracket' | 'nested_bracket' | 'too_deep' | 'empty_group' | 'unknown_part' | 'repeated_part' | 'bad_option' | 'unknown_expression' | 'bad_sync' | 'pause_in_part' | 'nothing_to_hold' | 'no_such_place' | 'long_mouthing'
+      readonly code:
+        | 'open_quote'
+        | 'empty_name'
+        | 'bad_suffix'
+        | 'token_zero'
+        | 'piece_order'
+        | 'too_long'
+        | 'open_bracket'
+        | 'stray_bracket'
+        | 'nested_bracket'
+        | 'too_deep'
+        | 'empty_group'
+        | 'unknown_part'
+        | 'repeated_part'
+        | 'bad_option'
+        | 'unknown_expression'
+        | 'bad_sync'
+        | 'pause_in_part'
+        | 'nothing_to_hold'
+        | 'no_such_place'
+        | 'long_mouthing'
       readonly message: string
       readonly line: number
       readonly column: number

@@ -47,7 +47,8 @@ export function readerOf(ask: (text: string, signal?: AbortSignal) => Promise<Ut
     const { places, pause, faults, holds, non_manuals } = await ask(text, signal)
     if (faults.length > 0) throw new UtteranceFault(text, faults[0])
     // A project has no place for these, and would sign the text without them.
-    if (holds ?? non_manuals ?? places.find(({ parts, dominant }) => parts ?? dominant)) throw new UtteranceFault(text, { ...kWithParts, end: [...text].length })
+    if (holds ?? non_manuals ?? places.find(({ parts, dominant }) => parts ?? dominant))
+      throw new UtteranceFault(text, { ...kWithParts, end: [...text].length })
     return { places: places.map(placeOf), pause: pause ?? 'none' }
   }
 }

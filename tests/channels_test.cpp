@@ -240,6 +240,38 @@ TEST(ChannelsTest, TheAnnotationNamesTheSourcesOfEachChannel) {
                                             "Expression", "Mouth", "Gaze"}));
 }
 
+std::vector<std::string> codes_of(const Utterance& utterance) {
+  std::vector<std::string> codes;
+  for (const Notice& notice : synthesize(corpus(), utterance).result.notices) {
+    if (!notice.code.empty()) codes.push_back(notice.code);
+  }
+  return codes;
+}
+
+TEST(ChannelsTest, WhatSignersRarelyDoIsReportedOrRefused) {
+  Utterance utterance{.places = {place_of({"DEMAIN"}), place_of({"BROUILLARD"}), place_of({"VANNES"})}};
+  EXPECT_THAT(codes_of(utterance), testing::IsEmpty());
+  // Both hands alternate in BROUILLARD, of which the weak one is held.
+  utterance.holds = {{.hand = BodyPart::weak, .from = 0, .until = 1}};
+  EXPECT_THAT(codes_of(utterance), testing::ElementsAre("weak_drop"));
+  utterance.places[1] = place_of({"MATIN"});
+  utterance.places[1].pause_before = kFullStop;
+  EXPECT_THAT(codes_of(utterance), testing::Contains("long_hold"));
+  utterance.places[1].pause_before = Milliseconds(6000);
+  EXPECT_THAT(codes_of(utterance), testing::Contains("long_hold"));
+  // The weak hand signs RENNES, mirrored, while the other signs VANNES: two movements with different handshapes.
+  utterance = {.places = {place_of({"DEMAIN"}), place_of({"VANNES"})}};
+  utterance.places[1].parts = {weak("RENNES")};
+  EXPECT_THAT(codes_of(utterance), testing::Contains("symmetry"));
+  try {
+    synthesize(corpus(), utterance, {.strict = true});
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ErrorCode::bad_input);
+    EXPECT_THAT(error.what(), HasSubstr("'RENNES' and 'VANNES' move at the same time with different handshapes"));
+  }
+}
+
 TEST(ChannelsTest, AStreamRefusesPartsInOneLine) {
   SharedSigningCache cache(corpus());
   Player player(cache, {});

@@ -58,6 +58,7 @@ SynthesisOptions options_of(const SynthesisChoices& choices) {
   options.tempo = choices.tempo;
   options.junctions = parse_junctions(choices.junctions);
   options.explain = choices.explain;
+  options.strict = choices.strict;
   if (!choices.rate.empty()) options.rate = parse_frame_rate(choices.rate);
   options.handedness = side_of(choices.handedness);
   options.alignment = choices.align == "ground" ? Alignment::ground

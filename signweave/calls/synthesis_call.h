@@ -43,6 +43,7 @@ struct SynthesisChoices {
   bool signing_space = false;
   std::string character;
   BvhWriting bvh;
+  bool strict = false;
   bool explain = false;
 };
 
@@ -94,6 +95,10 @@ void fields(Visit& visit, SynthesisChoices& choices) {
               .or_number = true,
               .check = check_rate},
         choices.rate);
+  visit(Field{.name = "strict",
+              .help = "refuse what signers rarely do with two hands instead of reporting it (symmetry, dominance, "
+                      "long_hold, collision, weak_drop)"},
+        choices.strict);
   visit(Field{.name = "signing_space", .help = kSigningSpaceHelp}, choices.signing_space);
   fields(visit, choices.bvh);
   visit(Field{.name = "explain", .help = "show candidates, costs and junctions"}, choices.explain);

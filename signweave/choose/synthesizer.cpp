@@ -11,6 +11,7 @@
 #include "signweave/choose/compose.h"
 #include "signweave/choose/decompose.h"
 #include "signweave/choose/handedness.h"
+#include "signweave/choose/lint.h"
 #include "signweave/choose/missing_glosses.h"
 #include "signweave/choose/notices.h"
 #include "signweave/choose/on_skeleton.h"
@@ -222,6 +223,11 @@ Synthesized run(const Snapshot& snapshot, Wanted wanted, std::string_view edited
                          .author = author,
                          .reference = reference},
                         std::move(used));
+  const std::vector<Notice> found = lint_channels(made.result, clips, composed.parts, rig, wanted.utterance);
+  if (options.strict && !found.empty()) {
+    throw Error(ErrorCode::bad_input, fmt::format("{} ({})", found.front().text, found.front().code), {{"strict", "false"}});
+  }
+  notices.insert(notices.end(), found.begin(), found.end());
   made.result.notices = std::move(notices);
   made.layout_from = clips[reference].recording;
   const bool timed =

@@ -29,6 +29,7 @@ struct SynthesisOptions {
   std::int64_t most_frames = kMostFrames;  ///< longer results are rejected before a frame is read
   bool explain = false;                    ///< fill Selection::explained
   NonManualOptions non_manuals;
+  bool strict = false;  ///< what lint_channels finds is an error
 };
 
 /// Throws Error{bad_input} if an option is out of range. Junction numbers that are too high are reported later, once

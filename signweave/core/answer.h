@@ -68,6 +68,8 @@ void fields(Visit& visit, const Notice& notice) {
   visit(AnswerField{.name = "text", .help = "one line"}, notice.text);
   visit(AnswerField{.name = "remedies", .help = "those with a value set together, or one of the others"},
         given_if(!notice.remedies.empty(), notice.remedies));
+  visit(AnswerField{.name = "code", .help = "what kind of notice it is; missing for most"},
+        given_if(!notice.code.empty(), notice.code));
 }
 
 /// The members of a span as answers give them.

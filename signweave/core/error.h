@@ -72,6 +72,7 @@ struct Notice {
   std::string where;  ///< "FILE" or "FILE:LINE" or a recording's name
   std::string text;   ///< one line, without a full stop
   Remedies remedies = {};
+  std::string code = {};  ///< for programs: what kind of notice it is; empty for most
   friend bool operator==(const Notice&, const Notice&) = default;
 };
 

@@ -8,6 +8,7 @@
 #include "signweave/core/error.h"
 #include "signweave/database/database.h"
 #include "signweave/database/test_recording.h"
+#include "signweave/features/hand_motion.h"
 #include "signweave/live/player.h"
 #include "signweave/live/shared_signing_cache.h"
 #include "signweave/notation/score_json.h"
@@ -238,6 +239,43 @@ TEST(ChannelsTest, TheAnnotationNamesTheSourcesOfEachChannel) {
   EXPECT_THAT(tiers, testing::IsSupersetOf({"Gloss", "Source", "Gloss left", "Phase left", "Source left", "Hold left",
                                             "Junction left", "Gloss right fingers", "Source right fingers",
                                             "Expression", "Mouth", "Gaze"}));
+}
+
+/// The mean distance, in shoulder widths, of a hand's palm from its place in the recording, over the core of a clip.
+double distance_from_recorded(const Synthesized& made, ClipId id, Side side) {
+  const Snapshot snapshot = corpus().snapshot();
+  const Clip& clip = made.result.score.clips[id];
+  const SignerModel& signer = *snapshot.signer(snapshot.contents().at(clip.source.recording));
+  const Motion source = recorded(clip.source.recording);
+  const auto slot = static_cast<std::size_t>(side);
+  const auto before = measure_hands(source, signer, clip.core).hands[slot].frames;
+  const auto after = measure_hands(motion_of(made), signer, clip.at).hands[slot].frames;
+  double sum = 0;
+  for (std::size_t i = 0; i < before.size(); ++i) sum += (before[i].position - after[i].position).norm();
+  return sum / static_cast<double>(before.size());
+}
+
+TEST(ChannelsTest, AHandOnAnotherTrunkKeepsItsPlace) {
+  Utterance utterance{.places = {place_of({"BONJOUR"}), place_of({"SOLEIL-BRILLER"}), place_of({"PLUIE"})}};
+  PlacePart left = weak("NUAGES");
+  left.part = BodyPart::left;
+  utterance.places[1].parts = {left};
+  const Synthesized made = synthesize(corpus(), utterance);
+  Score score = made.result.score;
+  std::size_t placed = 0;
+  for (Item& item : score.lanes[static_cast<std::size_t>(Channel::left)].items) {
+    auto* const use = std::get_if<ClipUse>(&item.what);
+    if (use == nullptr || !use->place) continue;
+    EXPECT_EQ(use->clip, 3u);
+    EXPECT_GT(use->place->moved_mm, 1);
+    use->place.reset();
+    ++placed;
+  }
+  ASSERT_EQ(placed, 1u);
+  if (score.clips[3].mirrored) return;
+  const double copied = distance_from_recorded(synthesize(corpus(), score), 3, Side::left);
+  const double corrected = distance_from_recorded(made, 3, Side::left);
+  EXPECT_LT(corrected, 0.5 * copied);
 }
 
 std::vector<std::string> codes_of(const Utterance& utterance) {

@@ -75,6 +75,10 @@ LaneRenderer::LaneRenderer(std::span<const LaneRun> runs, const JunctionSettings
   for (const LaneRun& run : runs) {
     Joints& joints = joints_[static_cast<std::size_t>(run.channel)];
     if (joints.rotations.empty()) joints = joints_of(run.channel);
+    const bool is_arm = run.channel == Channel::left || run.channel == Channel::right;
+    if (is_arm && !placer_ && settings.rig->signer.body) {
+      placer_.emplace(*settings.skeleton, settings.rig->signer, settings.rig->groups);
+    }
     strands_.push_back(
         {.run = &run, .renderer = std::make_unique<Renderer>(run.plan, settings, Renderer::Tracks::left_out)});
   }

@@ -51,6 +51,16 @@ const Database& corpus() {
   return *database;
 }
 
+TEST(RecordingsOfSharedData, TakenApartAndComposedAgainAreTheSame) {
+  const Snapshot snapshot = corpus().snapshot();
+  for (const RecordingInfo& info : snapshot.contents().recordings) {
+    const std::unique_ptr<MotionSource> source = snapshot.motion(info);
+    Motion recorded(source->skeleton(), source->rate(), source->frame_count());
+    source->read({0, source->frame_count()}, recorded.poses({0, source->frame_count()}));
+    EXPECT_TRUE(same_bits(recompose(corpus(), info.name).result.motion, recorded)) << info.name;
+  }
+}
+
 class AcrossRigs : public testing::TestWithParam<std::pair<const char*, const char*>> {};
 INSTANTIATE_TEST_SUITE_P(TwoSkeletonsSharedData, AcrossRigs,
                          testing::Values(std::pair("THANKS#1 ALWAYS ISL-2", "always"),

@@ -73,7 +73,12 @@ class TierWriter {
       const TimeSpan span = span_of(item.at, clock_);
       if (span.duration() <= Milliseconds(0)) continue;
       if (const auto* const use = std::get_if<ClipUse>(&item.what)) {
-        source.annotations.push_back(annotation(span, source_of(use->clip, item.at), new_id()));
+        std::string text = source_of(use->clip, item.at);
+        if (use->place) {
+          text += fmt::format(", hand kept in {}, moved {:.0f} mm", signweave::name_of(use->place->kept_in),
+                              use->place->moved_mm);
+        }
+        source.annotations.push_back(annotation(span, std::move(text), new_id()));
       } else if (const auto* const held = std::get_if<Hold>(&item.what)) {
         hold.annotations.push_back(
             annotation(span, fmt::format("clip {}: {}", held->clip, synthesis_.clips[held->clip].recording), new_id()));

@@ -278,6 +278,19 @@ TEST(ChannelsTest, AHandOnAnotherTrunkKeepsItsPlace) {
   EXPECT_LT(corrected, 0.5 * copied);
 }
 
+TEST(ChannelsTest, LidsShutAtPausesIfAskedFor) {
+  Utterance utterance{.places = {place_of({"DEMAIN"}), place_of({"MATIN"}), place_of({"PLUIE"})}};
+  utterance.places[1].pause_before = kFullStop;
+  SynthesisOptions options;
+  options.non_manuals.blinks = true;
+  const Synthesized made = synthesize(corpus(), utterance, options);
+  const Score& score = made.result.score;
+  ASSERT_FALSE(score.curves.empty());
+  const FrameRange pause{score.clips[0].at.end, score.clips[1].at.begin};
+  EXPECT_GT(most(motion_of(made), "eyeBlinkLeft", pause), 0.99f);
+  EXPECT_TRUE(synthesize(corpus(), utterance).result.score.curves.empty());
+}
+
 std::vector<std::string> codes_of(const Utterance& utterance) {
   std::vector<std::string> codes;
   for (const Notice& notice : synthesize(corpus(), utterance).result.notices) {

@@ -110,6 +110,7 @@ struct SignCall {
   std::string missing = "explain";
   std::string mouthing = "letters";
   std::string language = "fr";
+  bool blinks = false;
   SynthesisChoices how;
   Expressions expressions = built_in_expressions();  ///< not a parameter: the command line reads them from a file
 };
@@ -143,6 +144,8 @@ void fields(Visit& visit, SignCall& call) {
               .shows_default = true,
               .one_of = {"fr", "en", "de", "nl"}},
         call.language);
+  visit(Field{.name = "blinks", .help = "blink at pauses and where expressions and gazes end, as signers mostly do"},
+        call.blinks);
   fields(visit, call.how);
 }
 

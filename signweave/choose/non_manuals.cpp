@@ -6,11 +6,15 @@
 #include <cmath>
 #include <optional>
 
+#include "signweave/nonmanual/blinks.h"
 #include "signweave/nonmanual/gaze.h"
 #include "signweave/nonmanual/mouthing/mouthing.h"
 
 namespace signweave {
 namespace {
+
+/// The lids are shut this long after the stroke before a pause. (ours)
+constexpr Milliseconds kBlinkAfterStroke{120};
 
 /// The time of a place in the output.
 struct PlaceTime {
@@ -79,6 +83,31 @@ TimedCurve curve_of(const NonManual& one, const PlaceTime& first, const PlaceTim
   return {};
 }
 
+/// Blinks at the pauses of an utterance and at the ends of its curves (plan_blinks).
+void add_blinks(const Utterance& utterance, const Score& score, const PlaceTimes& times,
+                std::vector<AuthoredCurve>& curves) {
+  std::vector<Milliseconds> boundaries;
+  std::vector<TimeSpan> strokes;
+  for (std::size_t place = 0; place < utterance.places.size(); ++place) {
+    strokes.push_back(times.at(place).stroke);
+    if (place > 0 && utterance.places[place].pause_before > Milliseconds(0)) {
+      boundaries.push_back(strokes[place - 1].end + kBlinkAfterStroke);
+    }
+  }
+  for (const AuthoredCurve& one : curves) {
+    if (one.curve.mouth.empty()) boundaries.push_back(times.ms(one.at.end));
+  }
+  std::ranges::sort(boundaries);
+  for (const Milliseconds shut : plan_blinks({Milliseconds(0), times.ms(score.frames)}, boundaries, strokes)) {
+    const FrameRange at = blink_frames(shut, score.rate);
+    const auto after = std::ranges::upper_bound(strokes, shut, {}, &TimeSpan::begin);
+    const std::size_t place = after == strokes.begin() ? 0 : static_cast<std::size_t>(after - strokes.begin()) - 1;
+    // A blink that the output cuts would shut or open the lids at once.
+    if (at.begin < 0 || at.end > score.frames) continue;
+    curves.push_back({.curve = blink_at(shut).curve, .at = at, .first = place, .last = place});
+  }
+}
+
 }  // namespace
 
 std::vector<AuthoredCurve> author_non_manuals(const Utterance& utterance, const Score& score,
@@ -92,6 +121,7 @@ std::vector<AuthoredCurve> author_non_manuals(const Utterance& utterance, const 
     curves.push_back(
         {.curve = std::move(made.curve), .at = times.frames(made.at), .first = one.first, .last = one.last});
   }
+  if (options.blinks) add_blinks(utterance, score, times, curves);
   return curves;
 }
 

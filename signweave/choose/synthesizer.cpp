@@ -204,7 +204,7 @@ Synthesized run(const Snapshot& snapshot, Wanted wanted, std::string_view edited
     }
   }
   std::function<std::vector<AuthoredCurve>(const Score&)> author;
-  if (wanted.utterance != nullptr && !wanted.utterance->non_manuals.empty()) {
+  if (wanted.utterance != nullptr && (!wanted.utterance->non_manuals.empty() || options.non_manuals.blinks)) {
     author = [&](const Score& score) {
       return author_non_manuals(*wanted.utterance, score, options.non_manuals, notices);
     };

@@ -147,7 +147,7 @@ TEST(ChannelsTest, APlaceWhoseWeakHandSignsTheSameIsThatPlace) {
 TEST(ChannelsTest, TheWeakHandSignsAnotherGlossAndHolds) {
   Utterance utterance{
       .places = {place_of({"DEMAIN"}), place_of({"MATIN"}), place_of({"PLUIE"}), place_of({"SOLEIL-BRILLER"})}};
-  utterance.places[0].parts = {weak("NUAGES")};
+  utterance.places[0].parts = {weak("BROUILLARD")};
   utterance.holds = {{.hand = BodyPart::weak, .from = 0, .until = 2}};
   const Synthesized made = synthesize(corpus(), utterance);
   const Lane& left = *lane_of(made.result.score, Channel::left);
@@ -171,7 +171,7 @@ float most(const Motion& motion, std::string_view track, FrameRange frames) {
 /// An utterance with everything: two hands, a hold, a handshape, an expression, a mouthing and a gaze.
 Utterance everything() {
   Utterance utterance{.places = {place_of({"DEMAIN"}), place_of({"MATIN"}), place_of({"PLUIE"}), place_of({"VANNES"})}};
-  utterance.places[0].parts = {weak("NUAGES")};
+  utterance.places[0].parts = {weak("BROUILLARD")};
   PlacePart fingers = weak("RENNES");
   fingers.part = BodyPart::right_fingers;
   utterance.places[2].parts = {fingers};
@@ -257,7 +257,7 @@ double distance_from_recorded(const Synthesized& made, ClipId id, Side side) {
 
 TEST(ChannelsTest, AHandOnAnotherTrunkKeepsItsPlace) {
   Utterance utterance{.places = {place_of({"BONJOUR"}), place_of({"SOLEIL-BRILLER"}), place_of({"PLUIE"})}};
-  PlacePart left = weak("NUAGES");
+  PlacePart left = weak("BROUILLARD");
   left.part = BodyPart::left;
   utterance.places[1].parts = {left};
   const Synthesized made = synthesize(corpus(), utterance);

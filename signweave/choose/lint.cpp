@@ -20,7 +20,7 @@ namespace {
 /// Fewer common frames of two strokes are not judged. Seconds. (ours)
 constexpr Seconds kLeastCommon{0.1};
 
-std::string name_of(const MotionClip& clip) {
+std::string name_of_clip(const MotionClip& clip) {
   return clip.signs.empty() ? fmt::format("a piece of '{}'", printable(clip.recording))
                             : fmt::format("'{}'", printable(clip.signs.front().gloss));
 }
@@ -88,9 +88,8 @@ class ChannelLint {
       if (!both) continue;
       const std::optional<Hands> hands = class_of(both->movement, *rig_.signer.body);
       if (hands == Hands::one || (!both->movement.contact && hands != Hands::alternating)) continue;
-      add("weak_drop",
-          fmt::format("the {} hand does something else in {}, in which both hands {}", signweave::name_of(channel),
-                      name_of(clips_[i]), both->movement.contact ? "touch" : "alternate"));
+      add("weak_drop", fmt::format("the {} hand does something else in {}, in which both hands {}", name_of(channel),
+                                   name_of_clip(clips_[i]), both->movement.contact ? "touch" : "alternate"));
     }
   }
 
@@ -106,10 +105,10 @@ class ChannelLint {
         if (seconds > kLongHold.count()) {
           add("long_hold", fmt::format("'{}' is held for {:.1f} s in the lane '{}'; holds of signers are rarely longer "
                                        "than {:.0f} s",
-                                       what, seconds, signweave::name_of(lane.channel), kLongHold.count()));
+                                       what, seconds, name_of(lane.channel), kLongHold.count()));
         } else if (utterance != nullptr && crosses_stop(item.at, *utterance)) {
           add("long_hold",
-              fmt::format("'{}' is held across a full stop in the lane '{}'", what, signweave::name_of(lane.channel)));
+              fmt::format("'{}' is held across a full stop in the lane '{}'", what, name_of(lane.channel)));
         }
       }
     }
@@ -127,16 +126,16 @@ class ChannelLint {
     const auto slot = static_cast<std::size_t>(side);
     if (!handshapes_differ(both->shapes[0], both->shapes[1])) return;
     if (both_move(both->movement)) {
-      add("symmetry",
-          fmt::format("{} and {} move at the same time with different handshapes", name_of(own.clip), name_of(body)));
+      add("symmetry", fmt::format("{} and {} move at the same time with different handshapes", name_of_clip(own.clip),
+                                  name_of_clip(body)));
       return;
     }
     const float own_speed = both->movement.palms[slot].mean_speed;
     const float other_speed = both->movement.palms[1 - slot].mean_speed;
     const bool own_is_held = own_speed < kStillPalm && other_speed > kMovingPalm;
     if (own_is_held && !is_unmarked(both->shapes[slot])) {
-      add("dominance", fmt::format("the held hand of {} beside {} has a marked handshape of its own", name_of(own.clip),
-                                   name_of(body)));
+      add("dominance", fmt::format("the held hand of {} beside {} has a marked handshape of its own",
+                                   name_of_clip(own.clip), name_of_clip(body)));
     }
   }
 
@@ -145,8 +144,8 @@ class ChannelLint {
     const HandsMeeting made = meter_.meeting(view_of(made_.motion, common));
     const std::array<HandsMeeting, 2> captured = {meeting_in(own), meeting_in(body)};
     if (const std::optional<std::string> why = why_hands_collide(made, captured)) {
-      add("collision", fmt::format("{} of the {} hand and {}: {}", name_of(own), side == Side::left ? "left" : "right",
-                                   name_of(body), *why));
+      add("collision", fmt::format("{} of the {} hand and {}: {}", name_of_clip(own),
+                                   side == Side::left ? "left" : "right", name_of_clip(body), *why));
     }
   }
 

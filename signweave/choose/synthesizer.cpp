@@ -225,7 +225,8 @@ Synthesized run(const Snapshot& snapshot, Wanted wanted, std::string_view edited
                         std::move(used));
   const std::vector<Notice> found = lint_channels(made.result, clips, composed.parts, rig, wanted.utterance);
   if (options.strict && !found.empty()) {
-    throw Error(ErrorCode::bad_input, fmt::format("{} ({})", found.front().text, found.front().code), {{"strict", "false"}});
+    throw Error(ErrorCode::bad_input, fmt::format("{} ({})", found.front().text, found.front().code),
+                {{"strict", "false"}});
   }
   notices.insert(notices.end(), found.begin(), found.end());
   made.result.notices = std::move(notices);

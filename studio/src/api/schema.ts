@@ -60,6 +60,8 @@ export interface components {
       readonly text: string
       /** @description those with a value set together, or one of the others */
       readonly remedies?: readonly components['schemas']['Remedy'][]
+      /** @description what kind of notice it is; missing for most */
+      readonly code?: string
     }
     readonly RecordingRow: {
       readonly name: string
@@ -438,6 +440,11 @@ export interface components {
       readonly place: number
       /** @description the id of a clip of the score */
       readonly clip: number
+      /**
+       * @description the channel that it is of alone; missing: the whole body
+       * @enum {string}
+       */
+      readonly channel?: 'left' | 'right' | 'left_fingers' | 'right_fingers' | 'head'
       readonly recording: string
       readonly begin_ms: number
       readonly end_ms: number
@@ -455,6 +462,11 @@ export interface components {
       readonly clip: number
       /** @description the first place of the utterance that it is of, counted from 0; of a junction the one after it */
       readonly place: number
+      /**
+       * @description the channel that it is of alone; missing: the whole body
+       * @enum {string}
+       */
+      readonly channel?: 'left' | 'right' | 'left_fingers' | 'right_fingers' | 'head'
       readonly recording: string
       readonly frames: components['schemas']['Frames']
       readonly kept_frames: components['schemas']['Frames']
@@ -497,6 +509,13 @@ export interface components {
       }
       /** @description what `junctions` says of it */
       readonly chosen?: components['schemas']['ChosenJunction']
+    }
+    readonly ReportMovement: {
+      /** @description of an expression or a gaze, or the mouthed text */
+      readonly name: string
+      readonly first_place: number
+      readonly last_place: number
+      readonly frames: components['schemas']['Frames']
     }
     readonly Timings: {
       readonly semantic_query_ms: number
@@ -543,6 +562,8 @@ export interface components {
       /** @description the former name of clips */
       readonly stretches: readonly components['schemas']['ReportClip'][]
       readonly junctions: readonly components['schemas']['ReportJunction'][]
+      /** @description authored ones of face, gaze and head; missing: none */
+      readonly movements?: readonly components['schemas']['ReportMovement'][]
       readonly timings: components['schemas']['Timings']
       /** @description of `explain`: what there was to choose from */
       readonly places?: readonly components['schemas']['PlaceCandidates'][]
@@ -623,6 +644,23 @@ export interface components {
       /** @description the options given for it alone */
       readonly chosen: string
     }
+    readonly ScoreHandPlace: {
+      /**
+       * @description what the hand touched in its recording
+       * @enum {string}
+       */
+      readonly anchor: 'signer space' | 'trunk' | 'head' | 'other hand'
+      /**
+       * @description the space in which it keeps its place
+       * @enum {string}
+       */
+      readonly kept_in: 'signer space' | 'trunk' | 'head'
+      /** @description moved out of the body by this, in metres */
+      readonly out: readonly number[]
+      /** @description from where the copied arm would have the palm */
+      readonly moved_mm: number
+      readonly turned_degrees: number
+    }
     readonly ScoreTransition: {
       readonly from: number
       readonly to: number
@@ -636,14 +674,67 @@ export interface components {
     readonly ScoreItem: {
       /** @description output frames */
       readonly at: readonly number[]
-      /** @description or a transition */
+      /** @description or a transition, or a hold */
       readonly clip?: number
+      /** @description the corrected place of the clip's hand */
+      readonly hand?: components['schemas']['ScoreHandPlace']
       readonly transition?: components['schemas']['ScoreTransition']
+      /** @description the clip whose last pose is held; at the begin of a lane, whose first pose is */
+      readonly hold?: number
     }
     readonly ScoreLane: {
       /** @enum {string} */
-      readonly channel: 'body' | 'left' | 'right' | 'tracks'
+      readonly channel: 'body' | 'left' | 'right' | 'tracks' | 'left_fingers' | 'right_fingers' | 'head'
       readonly items: readonly components['schemas']['ScoreItem'][]
+    }
+    readonly ScoreTrackWeight: {
+      /** @description an ARKit name */
+      readonly track: string
+      readonly weight: number
+    }
+    /** @description degrees: up, to the signer's left, tilted to the signer's left */
+    readonly ScoreHeadAngles: {
+      readonly pitch: number
+      readonly yaw: number
+      readonly roll: number
+    }
+    readonly ScoreHeadMovement: {
+      readonly turn: components['schemas']['ScoreHeadAngles']
+      /** @description the amplitude of an oscillation about it */
+      readonly swing: components['schemas']['ScoreHeadAngles']
+      readonly hertz: number
+      readonly delay_ms: number
+      readonly onset_ms: number
+      readonly offset_ms: number
+    }
+    readonly ScoreMouthKey: {
+      readonly viseme: string
+      /** @description from the begin of the curve */
+      readonly at_ms: number
+      readonly held_ms: number
+      readonly strength: number
+    }
+    /** @description degrees: to the signer's left, up */
+    readonly ScoreGaze: {
+      readonly yaw: number
+      readonly pitch: number
+    }
+    /** @description an authored movement of face, gaze or head over captured motion */
+    readonly ScoreCurve: {
+      readonly name: string
+      /** @description output frames */
+      readonly at: readonly number[]
+      /** @description the first and the last that it accompanies, from 0 */
+      readonly places: readonly number[]
+      readonly onset_ms: number
+      readonly offset_ms: number
+      readonly amount: number
+      /** @enum {string} */
+      readonly merge: 'usual' | 'maximum' | 'sum' | 'replace'
+      readonly weights: readonly components['schemas']['ScoreTrackWeight'][]
+      readonly head?: components['schemas']['ScoreHeadMovement']
+      readonly mouth?: readonly components['schemas']['ScoreMouthKey'][]
+      readonly gaze?: components['schemas']['ScoreGaze']
     }
     readonly Score: {
       /** @description the version of the format */
@@ -655,6 +746,8 @@ export interface components {
       readonly clips: readonly components['schemas']['ScoreClip'][]
       readonly junctions: readonly components['schemas']['ScoreJunction'][]
       readonly lanes: readonly components['schemas']['ScoreLane'][]
+      /** @description missing: none */
+      readonly curves?: readonly components['schemas']['ScoreCurve'][]
     }
     /** @description ties the stroke of a part's sign to that of the place */
     readonly UtteranceSync: {
@@ -1118,6 +1211,7 @@ export type ReportClip = components['schemas']['ReportClip']
 export type ReportCut = components['schemas']['ReportCut']
 export type ChosenJunction = components['schemas']['ChosenJunction']
 export type ReportJunction = components['schemas']['ReportJunction']
+export type ReportMovement = components['schemas']['ReportMovement']
 export type Timings = components['schemas']['Timings']
 export type CandidateJoin = components['schemas']['CandidateJoin']
 export type Candidate = components['schemas']['Candidate']
@@ -1130,9 +1224,16 @@ export type ScorePhase = components['schemas']['ScorePhase']
 export type ScoreSign = components['schemas']['ScoreSign']
 export type ScoreClip = components['schemas']['ScoreClip']
 export type ScoreJunction = components['schemas']['ScoreJunction']
+export type ScoreHandPlace = components['schemas']['ScoreHandPlace']
 export type ScoreTransition = components['schemas']['ScoreTransition']
 export type ScoreItem = components['schemas']['ScoreItem']
 export type ScoreLane = components['schemas']['ScoreLane']
+export type ScoreTrackWeight = components['schemas']['ScoreTrackWeight']
+export type ScoreHeadAngles = components['schemas']['ScoreHeadAngles']
+export type ScoreHeadMovement = components['schemas']['ScoreHeadMovement']
+export type ScoreMouthKey = components['schemas']['ScoreMouthKey']
+export type ScoreGaze = components['schemas']['ScoreGaze']
+export type ScoreCurve = components['schemas']['ScoreCurve']
 export type Score = components['schemas']['Score']
 export type UtteranceSync = components['schemas']['UtteranceSync']
 export type UtteranceSign = components['schemas']['UtteranceSign']

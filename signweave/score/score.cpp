@@ -118,6 +118,7 @@ struct Checker {
         if (i == 0) announced = held->clip;
       } else {
         const auto& made = std::get<Transition>(item.what);
+        require(made.to != 0, "lane '{}': item {} leads to clip 0, which nothing comes before", name, i);
         require(!in_transition && last == made.from && made.from != made.to,
                 "lane '{}': item {} goes from clip {} to {}, but does not follow the first", name, i, made.from,
                 made.to);

@@ -203,8 +203,11 @@ TEST(ScoreOfClips, ErrorsSayWhereAndWhat) {
 }
 
 TEST(ScoreOfClips, TheFuzzCorpusContainsReadableScores) {
-  const std::filesystem::path file = std::filesystem::path(SIGNWEAVE_SOURCE_DIR) / "testdata/score/three_signs.json";
-  EXPECT_EQ(score_from_json(read_file(file), "three_signs.json").clips.size(), 3u);
+  const std::filesystem::path folder = std::filesystem::path(SIGNWEAVE_SOURCE_DIR) / "testdata/score";
+  EXPECT_EQ(score_from_json(read_file(folder / "three_signs.json"), "three_signs.json").clips.size(), 3u);
+  const Score second = score_from_json(read_file(folder / "two_hands.json"), "two_hands.json");
+  EXPECT_EQ(version_of(second), 2);
+  EXPECT_EQ(second.curves.size(), 2u);
 }
 
 TEST(ScoreOfClips, ACrossFadeOfASingleLaneIsRejected) {

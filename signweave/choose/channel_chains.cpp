@@ -6,15 +6,9 @@
 #include <string>
 
 #include "signweave/core/error.h"
-#include "signweave/core/text.h"
 
 namespace signweave {
 namespace {
-
-std::string name_of(const MotionClip& clip) {
-  return clip.signs.empty() ? fmt::format("a piece of '{}'", printable(clip.recording))
-                            : fmt::format("'{}'", printable(clip.signs.front().gloss));
-}
 
 [[noreturn]] void contradict(Channel channel, const std::string& one, const std::string& other) {
   throw Error(ErrorCode::bad_input, fmt::format("the lane '{}' cannot show {} and {} at the same time; leave out one "
@@ -39,7 +33,7 @@ class ChainEditor {
         links.insert(end, link);
         return;
       }
-      contradict(chain_.channel, name_of(clips_[clip]), name_of(clips_[at->clip]));
+      contradict(chain_.channel, quoted_name(clips_[clip]), quoted_name(clips_[at->clip]));
     }
     links.insert(links.erase(begin, end), link);
   }
@@ -49,11 +43,12 @@ class ChainEditor {
     const auto after = std::ranges::find_if(links, [&](const ChannelLink& one) { return one.first > from; });
     ChannelLink& held = *(after - 1);
     const auto end = std::find_if(after, links.end(), [&](const ChannelLink& one) { return one.first > until; });
-    const std::string name = fmt::format("the held {}", name_of(clips_[held.clip]));
+    const std::string name = fmt::format("the held {}", quoted_name(clips_[held.clip]));
     if (held.held_until) contradict(chain_.channel, name, name + " until another place");
-    if (held.last > from) contradict(chain_.channel, name, name_of(clips_[held.clip]));
+    if (held.last > from) contradict(chain_.channel, name, quoted_name(clips_[held.clip]));
     for (auto at = after; at != end; ++at) {
-      if (at->own || at->held_until || at->last > until) contradict(chain_.channel, name, name_of(clips_[at->clip]));
+      if (at->own || at->held_until || at->last > until)
+        contradict(chain_.channel, name, quoted_name(clips_[at->clip]));
     }
     held.held_until = until;
     links.erase(after, end);

@@ -11,6 +11,9 @@
 
 namespace signweave {
 
+/// The first gloss of a clip in quotes, or its recording: for messages.
+std::string quoted_name(const MotionClip& clip);
+
 /// Ties the core of a channel's clip to the core of a whole-body clip.
 struct ClipSync {
   enum class Anchor : std::uint8_t { begin, end };

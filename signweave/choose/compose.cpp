@@ -12,7 +12,6 @@
 #include "signweave/choose/joint_setup.h"
 #include "signweave/choose/junction_timer.h"
 #include "signweave/core/error.h"
-#include "signweave/core/text.h"
 #include "signweave/render/held_clip.h"
 #include "signweave/render/render.h"
 #include "signweave/score/lane_chain.h"
@@ -94,11 +93,8 @@ class Composer {
   }
 
   std::string name(std::size_t clip) const {
-    const MotionClip& one = clips_[clip];
-    const std::string channel =
-        clip < body_ ? std::string() : fmt::format(" ({})", name_of(parts_.clips[clip - body_].channel));
-    return one.signs.empty() ? fmt::format("a piece of '{}'{}", printable(one.recording), channel)
-                             : fmt::format("'{}'{}", printable(one.signs.front().gloss), channel);
+    const std::string own = quoted_name(clips_[clip]);
+    return clip < body_ ? own : fmt::format("{} ({})", own, name_of(parts_.clips[clip - body_].channel));
   }
 
   /// The usual length of a transition and its cuts.
@@ -274,11 +270,12 @@ class Composer {
   std::map<std::tuple<std::size_t, std::size_t, std::int64_t>, JunctionCuts> cuts_;
 };
 
-/// Lets the hands of the parts' clips keep the places that they had in their recordings.
-void place_hands(Score& score, const std::vector<MotionClip>& clips, std::size_t body,
-                 const JunctionSettings& settings) {
+/// Lets the hands of the parts' clips keep the places that they had in their recordings. Renders the whole body into
+/// `rendered`.
+void place_hands(Score& score, const std::vector<MotionClip>& clips, std::size_t body, const JunctionSettings& settings,
+                 Motion& rendered) {
   Renderer renderer(plan_of(score, clips), settings);
-  for (const FoundPlace& found : renderer.find_places(static_cast<ClipId>(body))) {
+  for (const FoundPlace& found : renderer.find_places(static_cast<ClipId>(body), rendered)) {
     const PlaceCorrection& correction = found.correction;
     if (correction.why_not) {
       throw Error(ErrorCode::bad_input,
@@ -309,12 +306,12 @@ Synthesis compose(const std::vector<MotionClip>& clips, const ChannelParts& part
   Composer composer(std::move(all), clips.size(), parts, setup.settings, options);
   Score score = composer.score(source_of(clips.at(options.reference)));
   if (options.author) score.curves = options.author(score);
-  place_hands(score, composer.clips(), clips.size(), setup.settings);
-  check(score, "score");
   Synthesis out;
   out.motion = std::move(used.motion);
   out.sources = std::move(used.sources);
-  render(std::move(score), composer.clips(), setup.settings, out);
+  place_hands(score, composer.clips(), clips.size(), setup.settings, out.motion);
+  check(score, "score");
+  render_over_body(std::move(score), composer.clips(), setup.settings, out);
   return out;
 }
 

@@ -8,6 +8,7 @@
 
 #include "signweave/core/error.h"
 #include "signweave/core/text.h"
+#include "signweave/render/plan.h"
 
 namespace signweave {
 namespace {
@@ -69,12 +70,12 @@ std::size_t place_at(const std::vector<Choice>& choices, std::int64_t frame) {
   return place;
 }
 
-Channel channel_of(Hand hand) noexcept {
-  return hand == Hand::left ? Channel::left : Channel::right;
-}
-
 PartChoice part_of(const std::vector<Candidate>& clips, const std::vector<Choice>& places, Hand hand, FrameRate rate) {
-  PartChoice part{.place = 0, .last = places.size() - 1, .channel = channel_of(hand), .signs = {}, .sync = {}};
+  PartChoice part{.place = 0,
+                  .last = places.size() - 1,
+                  .channel = arm_channel(hand == Hand::left ? Side::left : Side::right),
+                  .signs = {},
+                  .sync = {}};
   std::optional<std::size_t> tied;
   for (const Candidate& clip : clips) {
     part.signs.push_back({clip});
@@ -149,7 +150,7 @@ void replace_in_hands(const Contents& contents, std::string_view recording,
   const FrameRate rate = contents.at(recording).motion->rate;
   const auto place_begin = [&](std::size_t place) { return decomposed.choices[place].candidates.front().core.begin; };
   for (const HandReplacement& one : replacements) {
-    const Channel channel = one.hand == Side::left ? Channel::left : Channel::right;
+    const Channel channel = arm_channel(one.hand);
     PartChoice* own = nullptr;
     for (std::size_t i = 0; i < of_tiers; ++i) {
       if (decomposed.parts[i].channel == channel) own = &decomposed.parts[i];

@@ -13,23 +13,13 @@
 #include "signweave/features/unmarked_handshape.h"
 #include "signweave/render/hand_meter.h"
 #include "signweave/render/place_correction.h"
+#include "signweave/render/plan.h"
 
 namespace signweave {
 namespace {
 
 /// Fewer common frames of two strokes are not judged. Seconds. (ours)
 constexpr Seconds kLeastCommon{0.1};
-
-std::string name_of_clip(const MotionClip& clip) {
-  return clip.signs.empty() ? fmt::format("a piece of '{}'", printable(clip.recording))
-                            : fmt::format("'{}'", printable(clip.signs.front().gloss));
-}
-
-std::optional<Side> arm_of(Channel channel) noexcept {
-  if (channel == Channel::left) return Side::left;
-  if (channel == Channel::right) return Side::right;
-  return std::nullopt;
-}
 
 /// Both hands over some frames of a motion.
 struct BothHands {
@@ -66,7 +56,7 @@ class ChannelLint {
   /// The strokes of a part's clip against those of the whole body at the same time.
   void examine(std::size_t part) {
     const ChannelClip& own = parts_.clips[part];
-    const std::optional<Side> side = arm_of(own.channel);
+    const std::optional<Side> side = side_of_arm(own.channel);
     if (!side) return;
     const FrameRange at = made_.score.clips[clips_.size() + part].at;
     for (std::size_t i = 0; i < clips_.size(); ++i) {
@@ -81,7 +71,7 @@ class ChannelLint {
 
   /// What a channel leaves out of the signs of the whole body, from one clip to another.
   void dropped(Channel channel, std::size_t first, std::size_t last) {
-    const std::optional<Side> side = arm_of(channel);
+    const std::optional<Side> side = side_of_arm(channel);
     if (!side) return;
     for (std::size_t i = first; i <= last; ++i) {
       const std::optional<BothHands> both = captured(clips_[i]);
@@ -89,7 +79,7 @@ class ChannelLint {
       const std::optional<Hands> hands = class_of(both->movement, *rig_.signer.body);
       if (hands == Hands::one || (!both->movement.contact && hands != Hands::alternating)) continue;
       add("weak_drop", fmt::format("the {} hand does something else in {}, in which both hands {}", name_of(channel),
-                                   name_of_clip(clips_[i]), both->movement.contact ? "touch" : "alternate"));
+                                   quoted_name(clips_[i]), both->movement.contact ? "touch" : "alternate"));
     }
   }
 
@@ -126,8 +116,8 @@ class ChannelLint {
     const auto slot = static_cast<std::size_t>(side);
     if (!handshapes_differ(both->shapes[0], both->shapes[1])) return;
     if (both_move(both->movement)) {
-      add("symmetry", fmt::format("{} and {} move at the same time with different handshapes", name_of_clip(own.clip),
-                                  name_of_clip(body)));
+      add("symmetry", fmt::format("{} and {} move at the same time with different handshapes", quoted_name(own.clip),
+                                  quoted_name(body)));
       return;
     }
     const float own_speed = both->movement.palms[slot].mean_speed;
@@ -135,7 +125,7 @@ class ChannelLint {
     const bool own_is_held = own_speed < kStillPalm && other_speed > kMovingPalm;
     if (own_is_held && !is_unmarked(both->shapes[slot])) {
       add("dominance", fmt::format("the held hand of {} beside {} has a marked handshape of its own",
-                                   name_of_clip(own.clip), name_of_clip(body)));
+                                   quoted_name(own.clip), quoted_name(body)));
     }
   }
 
@@ -144,8 +134,8 @@ class ChannelLint {
     const HandsMeeting made = meter_.meeting(view_of(made_.motion, common));
     const std::array<HandsMeeting, 2> captured = {meeting_in(own), meeting_in(body)};
     if (const std::optional<std::string> why = why_hands_collide(made, captured)) {
-      add("collision", fmt::format("{} of the {} hand and {}: {}", name_of_clip(own),
-                                   side == Side::left ? "left" : "right", name_of_clip(body), *why));
+      add("collision", fmt::format("{} of the {} hand and {}: {}", quoted_name(own),
+                                   side == Side::left ? "left" : "right", quoted_name(body), *why));
     }
   }
 

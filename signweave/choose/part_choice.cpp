@@ -8,13 +8,11 @@
 #include "signweave/core/error.h"
 #include "signweave/core/text.h"
 #include "signweave/database/signer_dominance.h"
+#include "signweave/render/plan.h"
 
 namespace signweave {
 namespace {
 
-Channel hand(Side side) noexcept {
-  return side == Side::left ? Channel::left : Channel::right;
-}
 Channel fingers(Side side) noexcept {
   return side == Side::left ? Channel::left_fingers : Channel::right_fingers;
 }
@@ -27,9 +25,7 @@ bool is_fingers(Channel channel) noexcept {
 }
 
 std::optional<Side> side_of(Channel channel) noexcept {
-  if (channel == Channel::left || channel == Channel::left_fingers) return Side::left;
-  if (channel == Channel::right || channel == Channel::right_fingers) return Side::right;
-  return std::nullopt;
+  return side_of_arm(is_fingers(channel) ? *parent_of(channel) : channel);
 }
 
 /// See ChosenPart::mirrored.
@@ -51,9 +47,9 @@ bool is_same(const Candidate& a, const Candidate& b) {
 Channel channel_of(BodyPart part, Side dominant) noexcept {
   switch (part) {
     case BodyPart::dominant:
-      return hand(dominant);
+      return arm_channel(dominant);
     case BodyPart::weak:
-      return hand(other(dominant));
+      return arm_channel(other(dominant));
     case BodyPart::right:
       return Channel::right;
     case BodyPart::left:

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "signweave/render/window.h"
 #include "signweave/rig/signer_space.h"
 
 namespace signweave {
@@ -32,7 +33,7 @@ void CurveRenderer::apply(OutputWindow window) {
   std::vector<ScalarTrack> values = window.motion.take_tracks();
   for (ScalarTrack& track : values) tracks.push_back({track.name, track.values});
   for (const AuthoredCurve& one : curves_) {
-    if (one.at.begin >= window.frames().end || one.at.end <= window.frames().begin) continue;
+    if (inside(one.at, window.frames()).empty()) continue;
     signweave::apply(one.curve, one.at, settings_.rate, window.frames(), tracks);
     if (one.curve.head.moves()) turn_head(one, window);
   }
@@ -43,9 +44,8 @@ void CurveRenderer::turn_head(const AuthoredCurve& one, OutputWindow window) {
   if (head_ == kNoJoint) return;
   const auto head = static_cast<std::size_t>(head_);
   const JointIndex parent = settings_.skeleton->joints()[head].parent;
-  const std::int64_t begin = std::max(one.at.begin, window.frames().begin);
-  const std::int64_t end = std::min(one.at.end, window.frames().end);
-  for (std::int64_t frame = begin; frame < end; ++frame) {
+  const FrameRange shown = inside(one.at, window.frames());
+  for (std::int64_t frame = shown.begin; frame < shown.end; ++frame) {
     const Eigen::Quaternionf turn = head_rotation(one.curve, one.at, settings_.rate, frame);
     if (turn.vec().isZero(0)) continue;
     const MutablePoseView pose = window.pose(frame);

@@ -3,14 +3,10 @@
 #include <algorithm>
 
 #include "signweave/render/render.h"
+#include "signweave/render/window.h"
 
 namespace signweave {
 namespace {
-
-FrameRange common(FrameRange a, FrameRange b) noexcept {
-  const std::int64_t begin = std::max(a.begin, b.begin);
-  return {begin, std::max(begin, std::min(a.end, b.end))};
-}
 
 GroupSet groups_of(Channel channel) noexcept {
   switch (channel) {
@@ -54,18 +50,15 @@ void negate(const std::vector<std::size_t>& joints, const JointSigns& turned, Mu
 /// over the one after it. A corrected clip that follows takes over, so then it does not fall.
 float weight_at(const LaneRun& run, std::size_t clip, std::int64_t frame) noexcept {
   const std::vector<PlacedClip>& placed = run.plan.placed;
-  const auto smooth = [](std::int64_t at, std::int64_t begin, std::int64_t end) {
-    const float t = static_cast<float>(at - begin + 1) / static_cast<float>(end - begin + 1);
-    return t * t * (3 - 2 * t);
-  };
   if (frame < placed[clip].core) {
     const std::int64_t begin = clip == 0 ? run.frames.begin : placed[clip - 1].core_end();
     if (clip == 0 && !run.from_parent) return 1;
-    return frame < begin ? 0 : smooth(frame, begin, placed[clip].core);
+    return frame < begin ? 0 : crossfade_weight(frame - begin, placed[clip].core - begin);
   }
   if (frame < placed[clip].core_end() || clip + 1 == placed.size() || run.places[clip + 1]) return 1;
   const std::int64_t end = placed[clip + 1].core;
-  return frame >= end ? 0 : 1 - smooth(frame, placed[clip].core_end(), end);
+  const std::int64_t begin = placed[clip].core_end();
+  return frame >= end ? 0 : 1 - crossfade_weight(frame - begin, end - begin);
 }
 
 }  // namespace
@@ -75,8 +68,7 @@ LaneRenderer::LaneRenderer(std::span<const LaneRun> runs, const JunctionSettings
   for (const LaneRun& run : runs) {
     Joints& joints = joints_[static_cast<std::size_t>(run.channel)];
     if (joints.rotations.empty()) joints = joints_of(run.channel);
-    const bool is_arm = run.channel == Channel::left || run.channel == Channel::right;
-    if (is_arm && !placer_ && settings.rig->signer.body) {
+    if (side_of_arm(run.channel) && !placer_ && settings.rig->signer.body) {
       placer_.emplace(*settings.skeleton, settings.rig->signer, settings.rig->groups);
     }
     strands_.push_back(
@@ -88,18 +80,17 @@ LaneRenderer::~LaneRenderer() = default;
 
 /// Corrects the places of a run's hand in frames into which its arm was copied from `shown_`.
 void LaneRenderer::correct(const LaneRun& run, FrameRange shown, OutputWindow window) {
+  const std::optional<Side> side = side_of_arm(run.channel);
+  if (!side || !placer_) return;
   for (std::size_t clip = 0; clip < run.places.size(); ++clip) {
-    if (!run.places[clip] || !placer_) continue;
+    if (!run.places[clip]) continue;
     weights_.clear();
     for (std::int64_t frame = shown.begin; frame < shown.end; ++frame) {
       weights_.push_back(weight_at(run, clip, frame));
     }
     const HandPlace& place = *run.places[clip];
-    const PlaceCorrection correction{.side = run.channel == Channel::left ? Side::left : Side::right,
-                                     .anchor = place.anchor,
-                                     .kept_in = place.kept_in,
-                                     .none = false,
-                                     .out = place.out};
+    const PlaceCorrection correction{
+        .side = *side, .anchor = place.anchor, .kept_in = place.kept_in, .none = false, .out = place.out};
     placer_->apply(correction, view_of(shown_, {0, shown.size()}), weights_, window.poses(shown));
   }
 }
@@ -121,8 +112,9 @@ std::vector<FoundPlace> LaneRenderer::find_places(ClipId first, const RenderBody
   Motion composed;
   for (std::size_t i = 0; i < strands_.size(); ++i) {
     const LaneRun& run = *strands_[i].run;
-    if (run.channel != Channel::left && run.channel != Channel::right) continue;
-    const Side side = run.channel == Channel::left ? Side::left : Side::right;
+    const std::optional<Side> side = side_of_arm(run.channel);
+    if (!side) continue;
+    const auto slot = static_cast<std::size_t>(*side);
     for (std::size_t clip = 0; clip < run.clips.size(); ++clip) {
       if (run.clips[clip] < first) continue;
       const PlacedClip& placed = run.plan.placed[clip];
@@ -130,15 +122,16 @@ std::vector<FoundPlace> LaneRenderer::find_places(ClipId first, const RenderBody
       body(core, composed);
       apply({composed, core.begin}, body);
       strands_[i].renderer->render(core, shown_);
-      const bool both = shows_same(run, clip, side == Side::left ? Channel::right : Channel::left);
+      const bool both = shows_same(run, clip, arm_channel(kSides[1 - slot]));
       const MotionClip& captured = *placed.captured;
-      const std::array<bool, 2> arms = {side == Side::left || both, side == Side::right || both};
+      std::array<bool, 2> arms = {both, both};
+      arms[slot] = true;
       auto corrections =
           placer_->corrections({.name = captured.signs.empty() ? captured.recording : captured.signs.front().gloss,
                                 .source = view_of(shown_, {0, core.size()}),
                                 .composed = view_of(composed, {0, core.size()}),
                                 .from_source = arms});
-      std::optional<PlaceCorrection>& own = corrections[static_cast<std::size_t>(side)];
+      std::optional<PlaceCorrection>& own = corrections[slot];
       if (own) found.push_back({run.channel, run.clips[clip], std::move(*own)});
     }
   }
@@ -206,7 +199,7 @@ void LaneRenderer::apply(std::size_t strands, OutputWindow window, const RenderB
     if (now.run->frames.begin >= window.frames().end) continue;
     find_signs(i, body);
     const Joints& channel = joints(i);
-    const FrameRange shown = common(now.run->frames, window.frames());
+    const FrameRange shown = inside(now.run->frames, window.frames());
     if (!shown.empty()) {
       now.renderer->render(shown, shown_);
       for (std::int64_t frame = shown.begin; frame < shown.end; ++frame) {
@@ -220,7 +213,7 @@ void LaneRenderer::apply(std::size_t strands, OutputWindow window, const RenderB
         negate(channel.rotations, *now.turned, window.pose(frame));
       }
     }
-    const FrameRange after = common({now.run->frames.end, window.frames().end}, window.frames());
+    const FrameRange after = inside({now.run->frames.end, window.frames().end}, window.frames());
     if (std::ranges::find(*now.flipped, true) == now.flipped->end()) continue;
     for (std::int64_t frame = after.begin; frame < after.end; ++frame) {
       negate(channel.rotations, *now.flipped, window.pose(frame));

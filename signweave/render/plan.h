@@ -15,6 +15,17 @@
 
 namespace signweave {
 
+/// The channel of an arm.
+constexpr Channel arm_channel(Side side) noexcept {
+  return side == Side::left ? Channel::left : Channel::right;
+}
+/// The side of an arm's channel; none for others.
+constexpr std::optional<Side> side_of_arm(Channel channel) noexcept {
+  if (channel == Channel::left) return Side::left;
+  if (channel == Channel::right) return Side::right;
+  return std::nullopt;
+}
+
 struct LaneRun;
 
 /// A score together with its motions: Algorithm 1 before any frame is made. Clips are borrowed.

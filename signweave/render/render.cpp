@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cassert>
 #include <optional>
-#include <tuple>
 #include <utility>
 
 #include "signweave/core/error.h"
@@ -71,17 +70,6 @@ void name_sources(const Score& score, const Plan& plan, std::vector<FrameSource>
   }
 }
 
-/// The lane that shows a clip of a single channel, and its item there.
-std::pair<Channel, FrameRange> lane_with(const Score& score, ClipId clip) {
-  for (const Lane& lane : score.lanes) {
-    for (const Item& item : lane.items) {
-      const auto* const use = std::get_if<ClipUse>(&item.what);
-      if (use != nullptr && use->clip == clip) return {lane.channel, item.at};
-    }
-  }
-  return {Channel::body, {}};
-}
-
 void place_clips(const Score& score, const std::size_t body, Synthesis& out) {
   out.clips.clear();
   for (std::size_t i = 0; i < score.clips.size(); ++i) {
@@ -91,8 +79,16 @@ void place_clips(const Score& score, const std::size_t body, Synthesis& out) {
                     .core = clip.at,
                     .first_frame = static_cast<double>(clip.core.begin),
                     .step = clip.step};
-    if (i >= body) std::tie(shown.channel, shown.output) = lane_with(score, clip.id);
     out.clips.push_back(std::move(shown));
+  }
+  // Clips of single channels: from the first lane that shows them.
+  for (const Lane& lane : score.lanes) {
+    for (const Item& item : lane.items) {
+      const auto* const use = std::get_if<ClipUse>(&item.what);
+      if (use == nullptr || use->clip < body || out.clips[use->clip].channel != Channel::body) continue;
+      out.clips[use->clip].channel = lane.channel;
+      out.clips[use->clip].output = item.at;
+    }
   }
 }
 
@@ -123,6 +119,16 @@ void copy(const Motion& made, std::int64_t from, FrameRange frames, Motion& out)
   for (const ScalarTrack& track : made.tracks()) {
     out.add_track({track.name, {track.values.begin() + here.begin, track.values.begin() + here.end}});
   }
+}
+
+/// Fills everything of a synthesis that follows from its score, once its motion is rendered.
+void describe(Score score, const Plan& plan, const std::vector<MotionClip>& clips, Synthesis& out) {
+  name_sources(score, plan, out.sources);
+  place_clips(score, plan.placed.size(), out);
+  place_junctions(score, plan, out);
+  out.score = std::move(score);
+  out.signs.clear();
+  place_signs(clips, out);
 }
 
 }  // namespace
@@ -223,9 +229,14 @@ void Renderer::render_body(FrameRange frames, Motion& out) {
   window_.take_tracks();
 }
 
-std::vector<FoundPlace> Renderer::find_places(ClipId first) {
+std::vector<FoundPlace> Renderer::find_places(ClipId first, Motion& body) {
+  render_body({0, plan_.frames}, body);
   if (!lanes_) return {};
-  return lanes_->find_places(first, [&](FrameRange other, Motion& body) { render_body(other, body); });
+  const BorrowedSource rendered(body);
+  return lanes_->find_places(first, [&](FrameRange frames, Motion& out) {
+    out.reset(settings_.skeleton, settings_.rate, frames.size());
+    rendered.read(frames, out.poses({0, frames.size()}));
+  });
 }
 
 void Renderer::render_fetched(Motion& out, std::vector<ScalarTrack> used) {
@@ -262,20 +273,21 @@ void render(Score score, const std::vector<MotionClip>& clips, const JunctionSet
   render(std::move(score), renderer, clips, std::nullopt, out);
 }
 
+void render_over_body(Score score, const std::vector<MotionClip>& clips, const JunctionSettings& settings,
+                      Synthesis& out) {
+  Renderer renderer(plan_of(score, clips), settings);
+  renderer.show_over(out.motion);
+  describe(std::move(score), renderer.plan(), clips, out);
+}
+
 void render(Score score, Renderer& renderer, const std::vector<MotionClip>& clips,
             std::optional<std::vector<ScalarTrack>> fetched, Synthesis& out) {
-  const Plan& plan = renderer.plan();
   if (fetched) {
     renderer.render_fetched(out.motion, std::move(*fetched));
   } else {
-    renderer.render({0, plan.frames}, out.motion);
+    renderer.render({0, renderer.plan().frames}, out.motion);
   }
-  name_sources(score, plan, out.sources);
-  place_clips(score, plan.placed.size(), out);
-  place_junctions(score, plan, out);
-  out.score = std::move(score);
-  out.signs.clear();
-  place_signs(clips, out);
+  describe(std::move(score), renderer.plan(), clips, out);
 }
 
 }  // namespace signweave

@@ -39,8 +39,12 @@ class Renderer {
   /// frames of every earlier junction are read once. Throws Error{corrupt}, Error{bad_input} for frames outside the
   /// plan.
   void render(FrameRange frames, Motion& out);
-  /// The places of hands, see LaneRenderer::find_places; for the creator of a score.
-  std::vector<FoundPlace> find_places(ClipId first);
+  /// Renders the whole body of all frames into `body`, without what lanes and curves add, and finds the places of hands
+  /// of clips whose number is at least `first`, see LaneRenderer::find_places. For the creator of a score, who then
+  /// calls show_over with a renderer that has them.
+  std::vector<FoundPlace> find_places(ClipId first, Motion& body);
+  /// Shows what lanes and curves add over all frames of the whole body.
+  void show_over(Motion& body) { show_over(OutputWindow{body}); }
   /// Renders all frames, after `fetch` has put the captured ones into `out` and returned `used`.
   void render_fetched(Motion& out, std::vector<ScalarTrack> used);
 
@@ -76,6 +80,9 @@ std::vector<ScalarTrack> fetch(const Plan& plan, const JunctionSettings& setting
 /// and declarations. Makes no choices. The memory of `out` is reused. Throws Error{bad_input} as plan_of,
 /// Error{corrupt}.
 void render(Score score, const std::vector<MotionClip>& clips, const JunctionSettings& settings, Synthesis& out);
+/// The same if `out.motion` already shows the whole body, see Renderer::find_places.
+void render_over_body(Score score, const std::vector<MotionClip>& clips, const JunctionSettings& settings,
+                      Synthesis& out);
 /// The same with the renderer of the score's plan. `fetched` is the result of `fetch` if it has already read the
 /// captured frames into `out`.
 void render(Score score, Renderer& renderer, const std::vector<MotionClip>& clips,

@@ -7,11 +7,6 @@
 namespace signweave {
 namespace {
 
-FrameRange inside(FrameRange frames, FrameRange window) noexcept {
-  const std::int64_t begin = std::max(frames.begin, window.begin);
-  return {begin, std::max(begin, std::min(frames.end, window.end))};
-}
-
 void stand(const PlacedClip& placed, const Skeleton& skeleton, MutablePoses poses) noexcept {
   if (!placed.standing) return;
   const std::size_t joints = skeleton.joint_count();
@@ -30,6 +25,11 @@ void turn(const JointSigns& turned, std::span<Eigen::Quaternionf> rotations) noe
 }
 
 }  // namespace
+
+FrameRange inside(FrameRange frames, FrameRange window) noexcept {
+  const std::int64_t begin = std::max(frames.begin, window.begin);
+  return {begin, std::max(begin, std::min(frames.end, window.end))};
+}
 
 FrameRange own_frames(const PlacedClip* before, const PlacedClip& placed) noexcept {
   return {placed.begin() + (before == nullptr ? 0 : JunctionFiller::shared(*before, placed)), placed.end()};

@@ -10,6 +10,9 @@
 /// of output frames and joined there.
 namespace signweave {
 
+/// The part of some frames that lies in a window.
+FrameRange inside(FrameRange frames, FrameRange window) noexcept;
+
 /// Output frames of a clip that do not belong to the previous clip (which may be null).
 FrameRange own_frames(const PlacedClip* before, const PlacedClip& placed) noexcept;
 

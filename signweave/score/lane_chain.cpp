@@ -1,6 +1,6 @@
 #include "signweave/score/lane_chain.h"
 
-#include <algorithm>
+#include <unordered_map>
 
 namespace signweave {
 
@@ -52,14 +52,11 @@ Lane lane_of(Channel channel, const LaneChain& chain, const std::vector<Clip>& c
 
 std::vector<LaneDifference> differences(const LaneChain& lane, const LaneChain& parent, bool same_cuts) {
   constexpr auto kNone = static_cast<std::size_t>(-1);
-  // Clips stand in both chains in the order of time, so one pass finds each in the parent's.
+  std::unordered_map<ClipId, std::size_t> parents;
+  for (std::size_t i = 0; i < parent.size(); ++i) parents.emplace(parent[i].clip, i);
   std::vector<std::size_t> in_parent(lane.size(), kNone);
-  for (std::size_t i = 0, p = 0; i < lane.size(); ++i) {
-    const auto at = std::find_if(parent.begin() + static_cast<std::ptrdiff_t>(p), parent.end(),
-                                 [&](const LaneLink& link) { return link.clip == lane[i].clip; });
-    if (at == parent.end()) continue;
-    in_parent[i] = static_cast<std::size_t>(at - parent.begin());
-    p = in_parent[i] + 1;
+  for (std::size_t i = 0; i < lane.size(); ++i) {
+    if (const auto at = parents.find(lane[i].clip); at != parents.end()) in_parent[i] = at->second;
   }
   const auto joined_alike = [&](std::size_t i) {
     if (in_parent[i] == kNone || in_parent[i + 1] != in_parent[i] + 1) return false;

@@ -44,7 +44,7 @@ class ChainEditor {
     ChannelLink& held = *(after - 1);
     const auto end = std::find_if(after, links.end(), [&](const ChannelLink& one) { return one.first > until; });
     const std::string name = fmt::format("the held {}", quoted_name(clips_[held.clip]));
-    if (held.held_until) contradict(chain_.channel, name, name + " until another place");
+    if (held.held_until && held.held_until != from) contradict(chain_.channel, name, name + " until another place");
     if (held.last > from) contradict(chain_.channel, name, quoted_name(clips_[held.clip]));
     for (auto at = after; at != end; ++at) {
       if (at->own || at->held_until || at->last > until)
@@ -62,12 +62,18 @@ class ChainEditor {
 }  // namespace
 
 std::vector<ChannelChain> channel_chains(const ChannelParts& parts, const std::vector<MotionClip>& clips,
-                                         std::size_t body) {
+                                         std::size_t body, const std::vector<ChannelStart>& starts, std::size_t known) {
   std::vector<ChannelChain> chains;
+  const auto start_of = [&](Channel channel) { return std::ranges::find(starts, channel, &ChannelStart::channel); };
   const auto add = [&](Channel channel, std::vector<ChannelLink> links) {
     ChannelChain& chain = chains.emplace_back(ChannelChain{channel, std::move(links)});
+    if (const auto start = start_of(channel); start != starts.end() && !start->links.empty()) {
+      const std::size_t last = start->links.back().last;
+      std::erase_if(chain.links, [&](const ChannelLink& link) { return link.first <= last; });
+      chain.links.insert(chain.links.begin(), start->links.begin(), start->links.end());
+    }
     ChainEditor editor(chain, clips);
-    for (std::size_t i = 0; i < parts.clips.size(); ++i) {
+    for (std::size_t i = known; i < parts.clips.size(); ++i) {
       const ChannelClip& part = parts.clips[i];
       if (part.channel == channel) editor.replace(body + i, part.first, part.last);
     }
@@ -79,7 +85,9 @@ std::vector<ChannelChain> channel_chains(const ChannelParts& parts, const std::v
   for (std::size_t i = 0; i < body; ++i) whole.push_back({.clip = i, .held_until = {}, .first = i, .last = i});
   for (const Channel channel : kChannels) add(channel, whole);
   for (const Channel channel : kPartChannels) {
-    const bool has_parts = std::ranges::find(parts.clips, channel, &ChannelClip::channel) != parts.clips.end() ||
+    const bool has_parts = start_of(channel) != starts.end() ||
+                           std::any_of(parts.clips.begin() + static_cast<std::ptrdiff_t>(known), parts.clips.end(),
+                                       [&](const ChannelClip& part) { return part.channel == channel; }) ||
                            std::ranges::find(parts.holds, channel, &ChannelHold::channel) != parts.holds.end();
     if (!has_parts) continue;
     std::vector<ChannelLink> of_parent = chains[static_cast<std::size_t>(*parent_of(channel))].links;

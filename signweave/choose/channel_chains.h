@@ -22,10 +22,18 @@ struct ChannelChain {
   std::vector<ChannelLink> links;  ///< in time order, not empty
 };
 
+/// What a channel shows at first, instead of the first whole-body clips.
+struct ChannelStart {
+  Channel channel = Channel::left;
+  std::vector<ChannelLink> links;  ///< `first` and `last` are the last of those whole-body clips
+};
+
 /// What each channel shows one after another: the channels of kChannels, then those of kPartChannels that have parts.
-/// `clips` are the whole-body clips, `body` in number, then those of the parts. Throws Error{bad_input} if parts of one
-/// channel contradict each other, naming them.
+/// `clips` are the whole-body clips, `body` in number, then those of the parts. With `starts`, one for each channel of
+/// kChannels at least, channels begin with these; the first `known` parts are of them. Throws Error{bad_input} if parts
+/// of one channel contradict each other, naming them.
 std::vector<ChannelChain> channel_chains(const ChannelParts& parts, const std::vector<MotionClip>& clips,
-                                         std::size_t body);
+                                         std::size_t body, const std::vector<ChannelStart>& starts = {},
+                                         std::size_t known = 0);
 
 }  // namespace signweave

@@ -48,21 +48,48 @@ struct Reason {
 class Composer {
  public:
   Composer(std::vector<MotionClip> clips, std::size_t body, const ChannelParts& parts, const JunctionSettings& settings,
-           const ConcatenateOptions& options)
+           const ConcatenateOptions& options, const std::vector<ChannelStart>& starts = {}, std::size_t known = 0)
       : clips_(std::move(clips)),
         body_(body),
         parts_(parts),
         settings_(settings),
         options_(options),
         timer_(settings, {.fit = options.fit, .duration = options.duration, .tempo = options.tempo}),
-        chains_(channel_chains(parts, clips_, body)) {}
+        chains_(channel_chains(parts, clips_, body, starts, known)) {}
 
   const std::vector<MotionClip>& clips() const noexcept { return clips_; }
 
   Score score(const SourceRef& skeleton) {
     place();
-    solve();
+    std::vector<std::int64_t> earliest(placed_.size(), 0);
+    earliest[0] = placed_[0].preparation;
+    solve(earliest);
     stand();
+    return placed_score(skeleton);
+  }
+
+  /// The score of clips of which some have their place already.
+  Score score_after(const Continuation& before) {
+    placed_ = before.placed;
+    for (std::size_t i = 0; i < placed_.size(); ++i) placed_[i].captured = &clips_[i];
+    fixed_ = before.fixed;
+    fill();
+    std::vector<std::int64_t> earliest(placed_.size(), 0);
+    if (!before.fixed[0]) earliest[0] = placed_[0].preparation;
+    for (std::size_t i = 0; i < placed_.size(); ++i) {
+      if (before.fixed[i]) earliest[i] = placed_[i].core;
+    }
+    solve(earliest);
+    for (std::size_t i = 0; i < placed_.size(); ++i) {
+      if (!before.fixed[i] || placed_[i].core == earliest[i]) continue;
+      throw Error(ErrorCode::bad_input,
+                  fmt::format("{} is signed already and cannot come later; tie nothing to it", name(i)));
+    }
+    return placed_score({});
+  }
+
+ private:
+  Score placed_score(const SourceRef& skeleton) {
     Score score{
         .skeleton = skeleton, .rate = settings_.rate, .frames = frames(), .clips = {}, .junctions = {}, .lanes = {}};
     for (std::size_t i = 0; i < placed_.size(); ++i) {
@@ -76,19 +103,26 @@ class Composer {
     return score;
   }
 
- private:
   void place() {
     placed_.reserve(clips_.size());
     for (const MotionClip& clip : clips_) {
       placed_.push_back(placed_at_tempo(clip, settings_.rate, options_.tempo));
     }
+    fixed_.assign(placed_.size(), false);
+    fill();
+  }
+
+  /// Stretches the cores of parts that fill those of whole-body clips.
+  void fill() {
     for (std::size_t i = 0; i < parts_.clips.size(); ++i) {
-      if (!parts_.clips[i].fill) continue;
+      if (!parts_.clips[i].fill || fixed_[body_ + i]) continue;
       const PlacedClip& whole = placed_[parts_.clips[i].first];
       PlacedClip& filled = placed_[body_ + i];
       const auto frames = static_cast<double>(clips_[body_ + i].core.size());
+      const std::optional<GroundTransform> standing = filled.standing;
       filled = placed_by_step(clips_[body_ + i], frames / static_cast<double>(whole.core_frames));
       filled.core_frames = whole.core_frames;
+      filled.standing = standing;
     }
   }
 
@@ -132,6 +166,7 @@ class Composer {
       for (std::size_t i = 0; i + 1 < chain.links.size(); ++i) {
         const ChannelLink& from = chain.links[i];
         const ChannelLink& to = chain.links[i + 1];
+        if (fixed_[to.clip]) continue;
         const std::int64_t length = usual(from.clip, to.clip, from.held_until.has_value()).tracks.length;
         all.push_back({{from.clip, to.clip, placed_[from.clip].core_frames + length},
                        fmt::format("{} comes after {} in the lane '{}'", name(to.clip), name(from.clip),
@@ -144,6 +179,7 @@ class Composer {
       }
     }
     for (std::size_t i = 0; i < parts_.clips.size(); ++i) {
+      if (fixed_[body_ + i]) continue;
       for (const ClipSync& sync : parts_.clips[i].sync) tie(body_ + i, sync, all);
     }
     return all;
@@ -160,12 +196,10 @@ class Composer {
     if (!sync.at_least) all.push_back({{clip, sync.with, -offset}, text});
   }
 
-  void solve() {
+  void solve(const std::vector<std::int64_t>& earliest) {
     const std::vector<Reason> all = reasons();
     std::vector<TimeConstraint> constraints;
     for (const Reason& reason : all) constraints.push_back(reason.constraint);
-    std::vector<std::int64_t> earliest(placed_.size(), 0);
-    earliest[0] = placed_[0].preparation;
     const Schedule found = schedule(earliest, constraints);
     if (!found.contradiction.empty()) contradict(all, found.contradiction);
     for (std::size_t i = 0; i < placed_.size(); ++i) placed_[i].core = found.moments[i];
@@ -266,16 +300,14 @@ class Composer {
   JunctionScratch scratch_;
   std::vector<ChannelChain> chains_;
   std::vector<PlacedClip> placed_;  ///< [clip]
+  std::vector<bool> fixed_;         ///< [clip] it has its place
   std::map<std::tuple<std::size_t, std::size_t, bool>, JunctionCuts> usual_;
   std::map<std::tuple<std::size_t, std::size_t, std::int64_t>, JunctionCuts> cuts_;
 };
 
-/// Lets the hands of the parts' clips keep the places that they had in their recordings. Renders the whole body into
-/// `rendered`.
-void place_hands(Score& score, const std::vector<MotionClip>& clips, std::size_t body, const JunctionSettings& settings,
-                 Motion& rendered) {
-  Renderer renderer(plan_of(score, clips), settings);
-  for (const FoundPlace& found : renderer.find_places(static_cast<ClipId>(body), rendered)) {
+/// Lets hands keep the places that they had in their recordings.
+void set_places(Score& score, const std::vector<FoundPlace>& places) {
+  for (const FoundPlace& found : places) {
     const PlaceCorrection& correction = found.correction;
     if (correction.why_not) {
       throw Error(ErrorCode::bad_input,
@@ -309,10 +341,28 @@ Synthesis compose(const std::vector<MotionClip>& clips, const ChannelParts& part
   Synthesis out;
   out.motion = std::move(used.motion);
   out.sources = std::move(used.sources);
-  place_hands(score, composer.clips(), clips.size(), setup.settings, out.motion);
+  Renderer renderer(plan_of(score, composer.clips()), setup.settings);
+  set_places(score, renderer.find_places(static_cast<ClipId>(clips.size()), out.motion));
   check(score, "score");
   render_over_body(std::move(score), composer.clips(), setup.settings, out);
   return out;
+}
+
+Score compose_after(const Continuation& before, const std::vector<MotionClip>& clips, std::size_t body,
+                    const ChannelParts& parts, const JunctionSettings& settings, const ConcatenateOptions& options) {
+  Composer composer(clips, body, parts, settings, options, before.starts, before.known_parts);
+  Score score = composer.score_after(before);
+  for (Lane& lane : score.lanes) {
+    if (!side_of_arm(lane.channel)) continue;
+    for (Item& item : lane.items) {
+      if (auto* const use = std::get_if<ClipUse>(&item.what)) use->place = before.places[use->clip];
+    }
+  }
+  const std::size_t known = body + before.known_parts;
+  if (known == clips.size()) return score;
+  Renderer renderer(plan_of(score, composer.clips()), settings, Renderer::Tracks::left_out);
+  set_places(score, renderer.find_places(static_cast<ClipId>(known)));
+  return score;
 }
 
 }  // namespace signweave

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "signweave/choose/channel_chains.h"
 #include "signweave/choose/channel_clips.h"
 #include "signweave/choose/concatenate.h"
 
@@ -17,5 +18,20 @@ namespace signweave {
 /// other; the message names those that do.
 Synthesis compose(const std::vector<MotionClip>& clips, const ChannelParts& parts, const ConcatenateOptions& options,
                   Synthesis used = {});
+
+/// Clips that are composed after others, which have their place already: what a stream signs next.
+struct Continuation {
+  std::vector<PlacedClip> placed;    ///< [clip] of the whole body, then of the parts; points to the caller's clips
+  std::vector<bool> fixed;           ///< [clip] it stays where it is; the others get their place
+  std::vector<ChannelStart> starts;  ///< what each lane begins with; empty: no clip is fixed
+  std::vector<std::optional<HandPlace>> places;  ///< [clip] of fixed clips
+  /// The number of fixed clips of parts, which come first among those of the parts.
+  std::size_t known_parts = 0;
+};
+/// The score of such clips, with the places of hands. `clips` are those of the whole body, `body` in number, then those
+/// of the parts. All have the joints of the settings, and are
+/// where the signer stands. `options` are used for timing. Throws as `compose`.
+Score compose_after(const Continuation& before, const std::vector<MotionClip>& clips, std::size_t body,
+                    const ChannelParts& parts, const JunctionSettings& settings, const ConcatenateOptions& options);
 
 }  // namespace signweave

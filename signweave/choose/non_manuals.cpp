@@ -125,4 +125,12 @@ std::vector<AuthoredCurve> author_non_manuals(const Utterance& utterance, const 
   return curves;
 }
 
+void check_non_manuals(const Utterance& utterance, const NonManualOptions& options) {
+  if (utterance.non_manuals.empty()) return;
+  Pronouncer pronouncer(options.pronounce);
+  std::vector<Notice> notices;
+  const PlaceTime any{.preparation = Milliseconds(0), .stroke = {Milliseconds(0), Milliseconds(1000)}};
+  for (const NonManual& one : utterance.non_manuals) curve_of(one, any, any, options, pronouncer, notices);
+}
+
 }  // namespace signweave

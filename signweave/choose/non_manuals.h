@@ -23,4 +23,7 @@ struct NonManualOptions {
 std::vector<AuthoredCurve> author_non_manuals(const Utterance& utterance, const Score& score,
                                               const NonManualOptions& options, std::vector<Notice>& notices);
 
+/// Throws what author_non_manuals would throw.
+void check_non_manuals(const Utterance& utterance, const NonManualOptions& options);
+
 }  // namespace signweave

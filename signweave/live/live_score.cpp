@@ -11,8 +11,6 @@
 namespace signweave {
 namespace {
 
-/// Number of frames by which the timeline grows at rest.
-constexpr std::int64_t kRestFramesAtOnce = 32;
 /// Number of frames read at once.
 constexpr std::int64_t kChunk = 64;
 
@@ -61,7 +59,10 @@ void LiveScore::continue_from(const FrameRing& made) {
 
 bool LiveScore::grow() {
   if (queue_.has_next()) {
+    const std::int64_t from = end();
     sign_next();
+    while (queue_.goes_on()) sign_next();  // where a non-manual ends must be known
+    author(from);
     return true;
   }
   switch (state_) {
@@ -69,14 +70,12 @@ bool LiveScore::grow() {
     case State::ended:
       return false;
     case State::at_core:
-      if (options_.idle == Idle::living_rest) {
+      if (options_.idle == Idle::end) {
+        end_at_last_sign();
+      } else if (chain_.is_uniform()) {
         go_to_rest();
       } else {
-        timeline_.append({end(), end() + tail().placed.retraction}, chain_.back());
-        state_ = State::ended;
-        events_.push_back({.kind = PlayerEvent::Kind::end,
-                           .frame = static_cast<std::uint64_t>(end()),
-                           .at = end_of_last_sign() + time_of(tail().placed.retraction)});
+        go_to_rest_in_channels();
       }
       return true;
     case State::resting:
@@ -84,6 +83,20 @@ bool LiveScore::grow() {
       return true;
   }
   return false;
+}
+
+/// Shows the last retraction.
+void LiveScore::end_at_last_sign() {
+  const std::int64_t core_end = tail().placed.core_end();
+  if (chain_.is_uniform()) {
+    timeline_.append({end(), end() + tail().placed.retraction}, chain_.back());
+  } else {
+    timeline_.append({end(), step_->end()}, step_->made, step_->begin);
+  }
+  state_ = State::ended;
+  events_.push_back({.kind = PlayerEvent::Kind::end,
+                     .frame = static_cast<std::uint64_t>(end()),
+                     .at = end_of_last_sign() + time_of(end() - core_end)});
 }
 
 void LiveScore::go_to_rest() {
@@ -125,10 +138,14 @@ std::shared_ptr<const Motion> LiveScore::join(LiveClip& a, LiveClip& b) {
 
 LiveScore::ClipPtr LiveScore::history_of(std::int64_t next, const FrameRing& shown) const {
   const std::int64_t first = std::max(shown.begin(), next - history());
-  Motion motion(setup_->header.skeleton, setup_->header.rate, next - first);
+  return shown_clip(shown_frames(first, next, shown), first);
+}
+
+Motion LiveScore::shown_frames(std::int64_t first, std::int64_t end, const FrameRing& shown) const {
+  Motion motion(setup_->header.skeleton, setup_->header.rate, end - first);
   std::vector<ScalarTrack> tracks;
   for (const std::string& name : setup_->header.tracks) tracks.push_back({name, {}});
-  for (std::int64_t frame = first; frame < next; ++frame) {
+  for (std::int64_t frame = first; frame < end; ++frame) {
     const FrameView view = shown.at(frame);
     const MutablePoseView pose = motion.pose(frame - first);
     std::ranges::copy(view.pose.rotations, pose.rotations.begin());
@@ -136,6 +153,11 @@ LiveScore::ClipPtr LiveScore::history_of(std::int64_t next, const FrameRing& sho
     for (std::size_t i = 0; i < tracks.size(); ++i) tracks[i].values.push_back(view.tracks[i]);
   }
   for (ScalarTrack& track : tracks) motion.add_track(std::move(track));
+  return motion;
+}
+
+/// A clip of frames that the stream shows, from `first` on.
+LiveScore::ClipPtr LiveScore::shown_clip(Motion motion, std::int64_t first) const {
   auto history = std::make_shared<LiveClip>();
   const FrameRange all{0, motion.frame_count()};
   history->captured = {.recording = {},
@@ -151,6 +173,7 @@ LiveScore::ClipPtr LiveScore::history_of(std::int64_t next, const FrameRing& sho
 }
 
 void LiveScore::cut(std::int64_t end) {
+  curves_.cut(end);
   while (!events_.empty() && events_.back().frame >= static_cast<std::uint64_t>(end)) {
     if (events_.back().kind == PlayerEvent::Kind::notice) bodies_.reported.erase(events_.back().recording);
     events_.pop_back();
@@ -161,7 +184,7 @@ void LiveScore::cut(std::int64_t end) {
 /// Removes what follows the last sign.
 void LiveScore::end_with_last_sign() {
   chain_.end_with(last_sign_.clip);
-  cut(tail().placed.core_end());
+  cut(chain_.core_end());
   state_ = State::at_core;
 }
 
@@ -169,6 +192,7 @@ void LiveScore::end_with_last_sign() {
 void LiveScore::leave(std::int64_t next, const FrameRing& shown) {
   if (state_ == State::nothing) return;
   last_sign_.clip.reset();
+  curves_.clear();  // the shown pose has them
   if (state_ == State::resting && next > tail().placed.core) {
     leave_rest_at(next);
   } else if (next > shown.begin()) {
@@ -205,10 +229,14 @@ void LiveScore::set_loop(bool loop, std::int64_t next, const FrameRing& shown) {
 void LiveScore::reopen(std::int64_t next, const FrameRing& shown) {
   if (state_ != State::resting && state_ != State::ended) return;
   if (last_sign_.clip != nullptr && next <= last_sign_.clip->placed.core_end()) {
-    end_with_last_sign();
-  } else {
-    leave(next, shown);
+    chain_.end_with(last_sign_.clip);
+    state_ = State::at_core;
+    if (next <= chain_.core_end()) {
+      cut(chain_.core_end());
+      return;
+    }
   }
+  leave(next, shown);
 }
 
 void LiveScore::forget_places() {
@@ -221,17 +249,20 @@ void LiveScore::forget_places() {
   }
   if (!entries_.empty()) {
     Entry& front = entries_.front();
+    if (!front.step) front.begin = front.core - front.clip->placed.preparation;
     front.joined = false;
-    front.begin = front.core - front.clip->placed.preparation;
   }
+  std::erase_if(authored_, [&](const Authored& one) { return one.number < queue_.forgotten_non_manuals(); });
 }
 
 void LiveScore::replace(const Utterance& utterance, std::int64_t next, const FrameRing& shown) {
   queue_.check(utterance, false);
-  const bool finished = finish_sign(next);
+  const bool finished = finish_sign(next, shown);
   queue_.replace(utterance);
   entries_.clear();
   last_round_.clear();
+  authored_.clear();
+  authored_before_.clear();
   last_sign_.signs.reset();
   if (finished || state_ == State::nothing) return;
   if (queue_.empty() && state_ != State::at_core) return;  // moving to rest, or at rest
@@ -240,14 +271,14 @@ void LiveScore::replace(const Utterance& utterance, std::int64_t next, const Fra
 }
 
 /// If a sign's core is shown, ends the timeline with that sign, or immediately if it is long. Returns false otherwise.
-bool LiveScore::finish_sign(std::int64_t next) {
+bool LiveScore::finish_sign(std::int64_t next, const FrameRing& shown) {
   if (entries_.empty() && last_sign_.clip != nullptr && next >= last_sign_.clip->placed.core &&
       next < last_sign_.clip->placed.core_end()) {  // as cut when the last utterance began
     end_with_last_sign();
     return true;
   }
   const ClipPtr clip = timeline_.clip_at(next);
-  if (clip == nullptr) return false;
+  if (clip == nullptr) return finish_in_channels(next, shown);
   const PlacedClip& placed = clip->placed;
   if (clip->captured.kind == SourceRef::Kind::rest || next < placed.core || next >= placed.core_end()) return false;
   std::optional<std::size_t> last_place;  // none: all its signs are finished
@@ -303,6 +334,16 @@ bool LiveScore::seek(std::int64_t at, std::int64_t next) {
   std::size_t index = entries.size() - 1;
   while (index > 0 && entries[index].begin > at) --index;
   const Entry& entry = entries[index];
+  if (entry.step) {
+    if (earlier) {
+      entries_ = std::move(last_round_);
+      authored_ = std::move(authored_before_);
+    }
+    seek_in_step(index, at, next);
+    last_round_.clear();
+    authored_before_.clear();
+    return true;
+  }
   const ClipPtr clip = entry.clip;
   ClipPtr before_it;
   std::shared_ptr<const Motion> made;
@@ -335,12 +376,17 @@ bool LiveScore::seek(std::int64_t at, std::int64_t next) {
     timeline_.append({next, clip->placed.core}, clip);
   }
   timeline_.append({std::max(next, clip->placed.core), clip->placed.core_end()}, clip);
-  if (earlier) entries_ = std::move(last_round_);
+  if (earlier) {
+    entries_ = std::move(last_round_);
+    authored_ = std::move(authored_before_);
+  }
   last_round_.clear();
+  authored_before_.clear();
   entries_.resize(index + 1);
   queue_.continue_at(entries_.back().last + 1);
   last_sign_ = {.clip = clip, .signs = {}};
   state_ = State::at_core;
+  show_authored(next);
   report_places(entries_.back(), next);
   return true;
 }
@@ -357,6 +403,9 @@ void LiveScore::read(std::int64_t until, FrameRing& ring) {
     } catch (const Error&) {
       continue_from(ring);
       throw;
+    }
+    if (curves_.cover({ring.end(), ring.end() + count})) {
+      curves_.show(ring, count, setup_->header.tracks, setup_->builder->settings());
     }
     if (ring.end() > ring.begin()) {
       // Each rotation keeps its quaternion sign over the whole stream.
@@ -398,7 +447,14 @@ Milliseconds LiveScore::time_of(std::int64_t frames) const noexcept {
 
 std::optional<ShownScore> LiveScore::score(std::int64_t next, std::size_t most_clips) const {
   if (!setup_) return std::nullopt;
-  return chain_.score(*setup_->builder, setup_->skeleton, next, end(), most_clips);
+  std::optional<ShownScore> shown = chain_.score(*setup_->builder, setup_->skeleton, next, end(), most_clips);
+  if (!shown) return shown;
+  const std::int64_t begin = next - shown->next;
+  for (AuthoredCurve one : curves_.all()) {
+    one.at = {one.at.begin - begin, one.at.end - begin};
+    if (one.at.end > 0 && one.at.begin < shown->score.frames) shown->score.curves.push_back(std::move(one));
+  }
+  return shown;
 }
 
 }  // namespace signweave

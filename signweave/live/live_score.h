@@ -7,11 +7,14 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "signweave/core/prefetch.h"
 #include "signweave/live/clip_chain.h"
 #include "signweave/live/frame_ring.h"
+#include "signweave/live/lane_step.h"
+#include "signweave/live/live_curves.h"
 #include "signweave/live/open_recordings.h"
 #include "signweave/live/place_queue.h"
 #include "signweave/live/player.h"
@@ -81,7 +84,11 @@ class LiveScore {
   static constexpr Seconds kFinished{1.0};
 
  private:
+  /// Number of frames by which the timeline grows at rest.
+  static constexpr std::int64_t kRestFramesAtOnce = 32;
+
   using ClipPtr = std::shared_ptr<LiveClip>;
+  using StepPtr = std::shared_ptr<const LaneStep>;
   enum class State {
     nothing,  ///< no frames yet
     at_core,  ///< the timeline ends with the tail's core; the next clip is joined there
@@ -96,6 +103,12 @@ class LiveScore {
     bool joined = false;     ///< to the previous entry
     std::int64_t begin = 0;  ///< frame of the utterance at which its transition or preparation begins
     std::int64_t core = 0;   ///< frame of the utterance at which its core begins
+    StepPtr step = {};       ///< what it was signed with, if channels differ; null: by itself
+  };
+  /// Authored movements of this utterance, over frames of the utterance.
+  struct Authored {
+    std::size_t number = 0;  ///< of the non-manual in the queue
+    AuthoredCurve curve;
   };
   /// The last signed clip; the rest may follow it.
   struct LastSign {
@@ -104,20 +117,44 @@ class LiveScore {
   };
   /// Recordings with other skeletons.
   struct OtherBodies {
-    std::map<std::uint64_t, std::weak_ptr<const MotionSource>> shown;  ///< by the generation of their motion
-    std::set<std::string> reported;                                    ///< recordings whose retargeting was reported
+    /// By the generation of their motion, and whether they are mirrored.
+    std::map<std::pair<std::uint64_t, bool>, std::weak_ptr<const MotionSource>> shown;
+    std::set<std::string> reported;  ///< recordings whose retargeting was reported
   };
 
   /// The last placed clip; the next one is joined to it.
   LiveClip& tail() const noexcept { return *chain_.back(); }
-  MotionClip clip_of(const PlaceQueue::Decision& decision, std::size_t place);
+  MotionClip clip_of(const Contents& contents, const Candidate& candidate, std::size_t place,
+                     std::optional<bool> mirrored = {});
   std::shared_ptr<const MotionSource> on_skeleton(const RecordingInfo& info,
                                                   std::shared_ptr<const MotionSource> source);
+  void set_up_for(const MotionClip& first, const std::shared_ptr<const Contents>& contents);
+  void leave_idle();
   void report_setup(const Entry& entry);
   void sign_next();
   void go_to_rest();
+  void go_to_rest_in_channels();
+  void end_at_last_sign();
+
+  // live_score_channels.cpp
+  void sign_in_channels(std::size_t first);
+  std::vector<Entry> clips_of_places(std::size_t first, std::size_t last, StepClips& clips, Candidate& signs);
+  void add_parts(std::size_t first, std::size_t last, const std::vector<Entry>& placed, StepClips& clips);
+  void add_holds(std::size_t first, std::size_t last, const std::vector<Entry>& placed, StepClips& clips) const;
+  void extend_tail(std::int64_t end);
+  bool tail_is_last_sign() const noexcept;
+  StepPtr take_step(const StepClips& clips);
+  bool finish_in_channels(std::int64_t next, const FrameRing& shown);
+  void seek_in_step(std::size_t index, std::int64_t at, std::int64_t next);
+
+  // live_score_face.cpp
+  void author(std::int64_t from);
+  Score times_of_entries() const;
+  void show_authored(std::int64_t next);
   std::shared_ptr<const Motion> join(LiveClip& a, LiveClip& b);
   ClipPtr history_of(std::int64_t next, const FrameRing& shown) const;
+  Motion shown_frames(std::int64_t first, std::int64_t end, const FrameRing& shown) const;
+  ClipPtr shown_clip(Motion frames, std::int64_t first) const;
   void leave(std::int64_t next, const FrameRing& shown);
   void leave_rest_at(std::int64_t next);
   void reopen(std::int64_t next, const FrameRing& shown);
@@ -128,7 +165,7 @@ class LiveScore {
   void cut(std::int64_t end);
   void end_with_last_sign();
   void forget_places();
-  bool finish_sign(std::int64_t next);
+  bool finish_sign(std::int64_t next, const FrameRing& shown);
   void continue_as_captured(std::size_t place);
   void report_places(const Entry& entry, std::int64_t from);
   Milliseconds time_of(std::int64_t frames) const noexcept;
@@ -143,8 +180,12 @@ class LiveScore {
   State state_ = State::nothing;
   ClipChain chain_;  ///< ends with the tail; empty in State::nothing
   LastSign last_sign_;
-  std::vector<Entry> entries_;     ///< of this utterance, or of this round of a loop
-  std::vector<Entry> last_round_;  ///< of the previous round
+  StepPtr step_;                           ///< the last one, if the timeline ends with it
+  std::vector<Entry> entries_;             ///< of this utterance, or of this round of a loop
+  std::vector<Entry> last_round_;          ///< of the previous round
+  std::vector<Authored> authored_;         ///< of this utterance, or of this round
+  std::vector<Authored> authored_before_;  ///< of the previous round
+  LiveCurves curves_;                      ///< over the timeline's frames
   Timeline timeline_;
   std::deque<PlayerEvent> events_;  ///< `frame` counts the timeline's frames
 };

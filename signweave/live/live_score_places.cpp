@@ -2,37 +2,49 @@
 
 #include <algorithm>
 
+#include "signweave/choose/handedness.h"
 #include "signweave/choose/notices.h"
 #include "signweave/choose/on_skeleton.h"
 #include "signweave/core/error.h"
 #include "signweave/live/live_score.h"
+#include "signweave/retarget/mirrored_source.h"
 #include "signweave/retarget/retargeted_source.h"
 
 // Signing of places; the positions of their frames are managed in live_score.cpp.
 namespace signweave {
 
-MotionClip LiveScore::clip_of(const PlaceQueue::Decision& decision, std::size_t place) {
-  const Candidate& candidate = decision.candidate;
-  const RecordingInfo& info = decision.contents->recordings[candidate.recording];
+/// The clip of a place's token. It is mirrored if the hand that is to be dominant there is another than its signer's,
+/// unless `mirrored` says so for it.
+MotionClip LiveScore::clip_of(const Contents& contents, const Candidate& candidate, std::size_t place,
+                              std::optional<bool> mirrored) {
+  const RecordingInfo& info = contents.recordings[candidate.recording];
   const auto own = std::make_shared<RecordingSource>(open_, info);
-  const std::shared_ptr<const MotionSource> source = on_skeleton(info, own);
-  return {.recording = info.name,
-          .source = source,
-          .whole = candidate.whole,
-          .core = candidate.core,
-          .clock = info.clock,
-          .signs = candidate.signs,
-          .pause_before = queue_.pause_before(place),
-          .fingerprint = info.motion_facts.fingerprint,
-          .place = place + queue_.forgotten(),
-          .noise = source == own ? open_.snapshot().joins(candidate.recording)->noise : nullptr};
+  std::vector<MotionClip> clip = {{.recording = info.name,
+                                   .source = own,
+                                   .whole = candidate.whole,
+                                   .core = candidate.core,
+                                   .clock = info.clock,
+                                   .signs = candidate.signs,
+                                   .pause_before = queue_.pause_before(place),
+                                   .fingerprint = info.motion_facts.fingerprint,
+                                   .place = place + queue_.forgotten()}};
+  std::vector<Notice> notices;
+  if (const std::optional<Side> hand = queue_.wanted_hand(place); hand || mirrored) {
+    mark_mirrored(clip, {&hand, 1}, open_.snapshot(), notices);
+    clip.front().mirrored = mirrored.value_or(clip.front().mirrored);
+    mirror_marked(clip, open_.snapshot().contents(), notices);
+  }
+  clip.front().source = on_skeleton(info, clip.front().source);
+  if (clip.front().source == own) clip.front().noise = open_.snapshot().joins(candidate.recording)->noise;
+  return std::move(clip.front());
 }
 
 /// A recording's motion on the stream's skeleton.
 std::shared_ptr<const MotionSource> LiveScore::on_skeleton(const RecordingInfo& info,
                                                            std::shared_ptr<const MotionSource> source) {
   if (!setup_ || have_same_joints(setup_->header.skeleton, source->skeleton())) return source;
-  std::weak_ptr<const MotionSource>& known = bodies_.shown[info.motion->generation];
+  const bool is_mirrored = dynamic_cast<const MirroredSource*>(source.get()) != nullptr;
+  std::weak_ptr<const MotionSource>& known = bodies_.shown[{info.motion->generation, is_mirrored}];
   std::shared_ptr<const MotionSource> shown = known.lock();
   if (!shown) {
     auto mapping = cache_.mapping(open_.snapshot(), info.name, setup_->header.layout_from, *setup_->header.skeleton);
@@ -81,9 +93,14 @@ void LiveScore::rest_in(const std::string& recording) {
 void LiveScore::sign_next() {
   if (queue_.restarts()) {
     last_round_ = std::exchange(entries_, {});
+    authored_before_ = std::exchange(authored_, {});
     last_sign_.signs.reset();
   }
   const std::size_t first = queue_.take_next();  // not retried, even after an error
+  if (queue_.is_tied(first) || (!chain_.empty() && !chain_.is_uniform())) {
+    sign_in_channels(first);
+    return;
+  }
   const PlaceQueue::Decision& decision = queue_.decide(first);
   if (state_ == State::at_core && last_sign_.signs && chain_.back() == last_sign_.clip && !entries_.empty() &&
       queue_.follows(*last_sign_.signs, first)) {
@@ -91,7 +108,7 @@ void LiveScore::sign_next() {
     return;
   }
   auto clip = std::make_shared<LiveClip>();
-  clip->captured = clip_of(decision, first);
+  clip->captured = clip_of(*decision.contents, decision.candidate, first);
   Candidate signs = decision.candidate;
   std::size_t last = first;
   std::vector<std::size_t> sign_places(signs.signs.size(), *clip->captured.place);
@@ -104,18 +121,12 @@ void LiveScore::sign_next() {
   clip->captured.whole = signs.whole;
   clip->captured.signs = signs.signs;
   clip->captured.sign_places = std::move(sign_places);
-  if (!setup_) setup_ = set_up(cache_, open_.snapshot(), decision.contents, clip->captured, options_);
+  set_up_for(clip->captured, decision.contents);
   setup_->builder->place_sign(*clip);
   clip->key = key_of(clip->captured);
 
   Entry entry{.clip = clip, .first = first, .last = last};
-  if (state_ == State::nothing && options_.idle == Idle::living_rest) {  // starting from an invisible rest
-    chain_.begin(place_rest(*setup_));
-    tail().placed.core_frames = history();
-    tail().placed.core = end() - history();
-  } else if (state_ == State::resting) {
-    leave_rest_at(end());
-  }
+  leave_idle();
   if (chain_.empty()) {
     clip->placed.before = clip->placed.preparation;
     clip->placed.core = end() + clip->placed.preparation;
@@ -138,6 +149,24 @@ void LiveScore::sign_next() {
   state_ = State::at_core;
   report_setup(entries_.back());
   report_places(entries_.back(), 0);
+}
+
+void LiveScore::set_up_for(const MotionClip& first, const std::shared_ptr<const Contents>& contents) {
+  if (setup_) return;
+  PlayerOptions options = options_;
+  if (!queue_.non_manuals().empty()) options.face = true;
+  setup_ = set_up(cache_, open_.snapshot(), contents, first, options);
+}
+
+/// Ends the rest before a sign.
+void LiveScore::leave_idle() {
+  if (state_ == State::nothing && options_.idle == Idle::living_rest) {  // starting from an invisible rest
+    chain_.begin(place_rest(*setup_));
+    tail().placed.core_frames = history();
+    tail().placed.core = end() - history();
+  } else if (state_ == State::resting) {
+    leave_rest_at(end());
+  }
 }
 
 /// The place follows the tail in its recording, so the tail is extended.

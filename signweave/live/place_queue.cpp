@@ -4,22 +4,53 @@
 
 #include <algorithm>
 
+#include "signweave/choose/non_manuals.h"
+#include "signweave/choose/part_choice.h"
 #include "signweave/choose/select.h"
 #include "signweave/core/error.h"
+#include "signweave/database/signer_dominance.h"
 
 namespace signweave {
+namespace {
+
+bool has_parts(const Utterance& utterance) {
+  return std::ranges::any_of(utterance.places, [](const Place& place) { return !place.parts.empty(); });
+}
+
+/// Parts, holds and non-manuals must accompany places of their utterance, and not too many.
+void check_ranges(const Utterance& utterance) {
+  const auto require = [&](std::size_t first, std::size_t last, bool at_once) {
+    if (first > last || last >= utterance.places.size()) {
+      throw Error(ErrorCode::bad_input, fmt::format("places {} to {} are not in an utterance of {}", first + 1,
+                                                    last + 1, utterance.places.size()));
+    }
+    if (at_once && last - first >= PlaceQueue::kMostTied) {
+      throw Error(ErrorCode::bad_input,
+                  fmt::format("in a stream, a part or an expression lasts for at most {} signs; it lasts for {} here",
+                              PlaceQueue::kMostTied, last - first + 1));
+    }
+  };
+  std::size_t first = 0;  // of the places that overlapping parts tie to each other
+  std::size_t last = 0;
+  for (std::size_t i = 0; i < utterance.places.size(); ++i) {
+    if (i > last) first = i;
+    last = std::max(last, i);
+    for (const PlacePart& part : utterance.places[i].parts) {
+      last = std::max(last, std::min(i + std::max<std::size_t>(part.places, 1), utterance.places.size()) - 1);
+    }
+    require(first, last, true);
+  }
+  for (const HandHold& held : utterance.holds) require(held.from + 1, held.until, false);
+  for (const NonManual& one : utterance.non_manuals) require(one.first, one.last, true);
+}
+
+}  // namespace
 
 PlaceQueue::PlaceQueue(SharedSigningCache& cache, OpenRecordings& open, const PlayerOptions& options)
     : cache_(cache), open_(open), options_(options), loop_(options.loop) {}
 
 void PlaceQueue::check(const Utterance& utterance, bool after_those_waiting) const {
   if (utterance.places.empty()) return;
-  const bool has_parts = std::ranges::any_of(utterance.places, [](const Place& place) { return !place.parts.empty(); });
-  if (has_parts || !utterance.holds.empty() || !utterance.non_manuals.empty()) {
-    throw Error(
-        ErrorCode::unsupported,
-        "a stream signs with the whole body; leave out what single hands, the head or the face do, or use sign");
-  }
   const std::size_t waiting = after_those_waiting ? places_.size() - next_ : 0;
   if (waiting + utterance.places.size() > kMostPlaces) {
     throw Error(ErrorCode::bad_input, fmt::format("{} signs would wait, more than {}; send the others later",
@@ -35,20 +66,87 @@ void PlaceQueue::check(const Utterance& utterance, bool after_those_waiting) con
     throw Error(ErrorCode::bad_input, fmt::format("a pause of {} ms is longer than {} ms; leave out some of its signs",
                                                   place.pause_before.count(), kLongestPause.count()));
   }
-  cache_.check(cache_.database().contents(), utterance.places);
+  const std::shared_ptr<const Contents> contents = cache_.database().contents();
+  cache_.check(contents, utterance.places);
+  if (has_parts(utterance)) part_choices(*contents, utterance, Side::right);
+  check_non_manuals(utterance, options_.synthesis.non_manuals);
+  check_ranges(utterance);
 }
 
 void PlaceQueue::replace(const Utterance& utterance) {
-  places_ = utterance.places;
+  places_.clear();
   decisions_.clear();
-  decisions_.resize(places_.size());
+  usual_.clear();
+  tied_.clear();
+  borders_.clear();
+  holds_.clear();
+  non_manuals_.clear();
   next_ = 0;
   forgotten_ = 0;
+  forgotten_non_manuals_ = 0;
+  add(utterance);
 }
 
 void PlaceQueue::add(const Utterance& utterance) {
+  if (utterance.places.empty()) return;
+  const std::size_t first = places_.size();
+  Side usual = options_.synthesis.handedness.value_or(Side::right);
+  if (!options_.synthesis.handedness && (has_parts(utterance) || !utterance.holds.empty())) {
+    const Snapshot& snapshot = open_.snapshot();
+    const auto tokens = cache_.candidates(snapshot.shared_contents(), utterance.places.front());
+    usual = dominance_of(snapshot, tokens->front().recording).hand.value_or(Side::right);
+  }
   places_.insert(places_.end(), utterance.places.begin(), utterance.places.end());
   decisions_.resize(places_.size());
+  usual_.resize(places_.size(), usual);
+  tied_.resize(places_.size(), false);
+  for (std::size_t i = first; i < places_.size(); ++i) {
+    for (const PlacePart& part : places_[i].parts) {
+      const std::size_t end = std::min(i + part.places, places_.size());
+      std::fill(tied_.begin() + static_cast<std::ptrdiff_t>(i), tied_.begin() + static_cast<std::ptrdiff_t>(end), true);
+    }
+  }
+  for (const std::size_t border : clip_borders(utterance)) borders_.insert(first + border);
+  for (ChannelHold held : channel_holds(utterance, usual)) {
+    held.from += first;
+    held.until += first;
+    std::fill(tied_.begin() + static_cast<std::ptrdiff_t>(held.from) + 1,
+              tied_.begin() + static_cast<std::ptrdiff_t>(held.until) + 1, true);
+    holds_.push_back(held);
+  }
+  for (NonManual one : utterance.non_manuals) {
+    one.first += first;
+    one.last += first;
+    non_manuals_.push_back(std::move(one));
+  }
+}
+
+std::size_t PlaceQueue::last_tied_to(std::size_t place) const noexcept {
+  std::size_t last = place;
+  for (std::size_t i = place; i <= last; ++i) {
+    for (const PlacePart& part : places_[i].parts) {
+      last = std::max(last, std::min(i + std::max<std::size_t>(part.places, 1), places_.size()) - 1);
+    }
+  }
+  return last;
+}
+
+bool PlaceQueue::goes_on() const noexcept {
+  return next_ < places_.size() && std::ranges::any_of(non_manuals_, [&](const NonManual& one) {
+           return one.first < next_ && next_ <= one.last;
+         });
+}
+
+Utterance PlaceQueue::part(std::size_t first, std::size_t last) const {
+  Utterance part{.places = {places_.begin() + static_cast<std::ptrdiff_t>(first),
+                            places_.begin() + static_cast<std::ptrdiff_t>(last) + 1},
+                 .holds = {},
+                 .non_manuals = {}};
+  return part;
+}
+
+std::optional<Side> PlaceQueue::wanted_hand(std::size_t place) const noexcept {
+  return places_[place].dominant ? places_[place].dominant : options_.synthesis.handedness;
 }
 
 /// Bounds the memory of an utterance that lasts for hours.
@@ -58,6 +156,23 @@ std::size_t PlaceQueue::forget() noexcept {
   const auto over = static_cast<std::ptrdiff_t>(count);
   places_.erase(places_.begin(), places_.begin() + over);
   decisions_.erase(decisions_.begin(), decisions_.begin() + over);
+  usual_.erase(usual_.begin(), usual_.begin() + over);
+  tied_.erase(tied_.begin(), tied_.begin() + over);
+  std::set<std::size_t> borders;
+  for (const std::size_t border : borders_) {
+    if (border >= count) borders.insert(border - count);
+  }
+  borders_ = std::move(borders);
+  std::erase_if(holds_, [&](const ChannelHold& held) { return held.from < count; });
+  for (ChannelHold& held : holds_) {
+    held.from -= count;
+    held.until -= count;
+  }
+  forgotten_non_manuals_ += std::erase_if(non_manuals_, [&](const NonManual& one) { return one.first < count; });
+  for (NonManual& one : non_manuals_) {
+    one.first -= count;
+    one.last -= count;
+  }
   next_ -= count;
   forgotten_ += count;
   return count;
@@ -98,6 +213,12 @@ const PlaceQueue::Decision& PlaceQueue::decide(std::size_t place) {
   return *decision;
 }
 
+const PlaceQueue::Decision& PlaceQueue::decide_now(std::size_t place) {
+  std::unique_ptr<const Decision>& decision = decisions_[place];
+  if (decision && decision->contents != open_.snapshot().shared_contents()) decision.reset();
+  return decide(place);
+}
+
 /// True if no further context can improve the decision of a place.
 bool PlaceQueue::decided_well(std::size_t place) const noexcept {
   return place + options_.look_ahead < places_.size();
@@ -105,12 +226,14 @@ bool PlaceQueue::decided_well(std::size_t place) const noexcept {
 
 bool PlaceQueue::follows(const Candidate& before, std::size_t place) const {
   if (place == 0 || !decisions_[place - 1] || places_[place].pause_before > Milliseconds(0)) return false;
+  if (wanted_hand(place) != wanted_hand(place - 1)) return false;
   const Decision& now = *decisions_[place];
   return decisions_[place - 1]->contents == now.contents && are_neighbours(*now.contents, before, now.candidate);
 }
 
 bool PlaceQueue::will_follow(const Candidate& before, std::size_t place) {
   if (place >= places_.size() || places_[place].pause_before > Milliseconds(0)) return false;
+  if (is_tied(place) || wanted_hand(place) != wanted_hand(place - 1)) return false;
   const bool was_decided = decisions_[place] != nullptr;
   try {
     decide(place);

@@ -2,9 +2,12 @@
 
 #include <cstddef>
 #include <memory>
+#include <optional>
+#include <set>
 #include <vector>
 
 #include "signweave/choose/candidate.h"
+#include "signweave/choose/channel_clips.h"
 #include "signweave/live/open_recordings.h"
 #include "signweave/live/player.h"
 #include "signweave/live/shared_signing_cache.h"
@@ -25,8 +28,9 @@ class PlaceQueue {
     Candidate candidate;
   };
 
-  /// Throws what `candidates_for` throws for one of the places; Error{bad_input} if a pause is longer than
-  /// kLongestPause, or if there would be more than kMostPlaces, including the waiting ones if `after_those_waiting`.
+  /// Throws what `candidates_for` throws for one of the places and what `author_non_manuals` does; Error{bad_input} if
+  /// a pause is longer than kLongestPause, more than kMostTied places belong together, or there would be more than
+  /// kMostPlaces, including the waiting ones if `after_those_waiting`.
   void check(const Utterance& utterance, bool after_those_waiting) const;
   /// Replaces all places by these, which must be checked.
   void replace(const Utterance& utterance);
@@ -45,11 +49,34 @@ class PlaceQueue {
   std::size_t take_next() noexcept;
   /// Continues with this place.
   void continue_at(std::size_t place) noexcept { next_ = place; }
+  std::size_t next() const noexcept { return next_; }
+
+  /// True if single channels do something else in this place than the body, or begin or end it there.
+  bool is_tied(std::size_t place) const noexcept { return place < tied_.size() && tied_[place]; }
+  /// The last place that a part accompanies of which one accompanies this place.
+  std::size_t last_tied_to(std::size_t place) const noexcept;
+  /// True if a clip must begin at a place that is tied to the one before it.
+  bool is_border(std::size_t place) const noexcept { return borders_.contains(place); }
+  /// True if the place to sign next is in the scope of a non-manual that began before it.
+  bool goes_on() const noexcept;
+  /// Places of the queue as an utterance of its own, without what accompanies others.
+  Utterance part(std::size_t first, std::size_t last) const;
+  /// The hand that is the dominant one in a place, and whether that was asked for.
+  Side dominant(std::size_t place) const noexcept { return places_[place].dominant.value_or(usual_[place]); }
+  std::optional<Side> wanted_hand(std::size_t place) const noexcept;
+  /// Between places.
+  const std::vector<ChannelHold>& holds() const noexcept { return holds_; }
+  const std::vector<NonManual>& non_manuals() const noexcept { return non_manuals_; }
+  /// How many of them were dropped with their places since the last `replace`.
+  std::size_t forgotten_non_manuals() const noexcept { return forgotten_non_manuals_; }
 
   Milliseconds pause_before(std::size_t place) const noexcept { return places_[place].pause_before; }
   /// Chooses the token of a place, given the one before it and up to `look_ahead` known places after it. Throws if
   /// there is none.
   const Decision& decide(std::size_t place);
+  /// The same from the database as it is now.
+  const Decision& decide_now(std::size_t place);
+  bool is_decided(std::size_t place) const noexcept { return decisions_[place] != nullptr; }
   const Candidate& chosen(std::size_t place) const noexcept { return decisions_[place]->candidate; }
   /// True if the token of a decided place directly follows the signs of `before` in their recording.
   bool follows(const Candidate& before, std::size_t place) const;
@@ -62,6 +89,8 @@ class PlaceQueue {
   static constexpr std::size_t kKeptPlaces = 1'000;
   /// Maximum number of pieces of recordings in one utterance; each is looked up separately.
   static constexpr std::size_t kMostPieces = 256;
+  /// Maximum number of places that a part or a non-manual may accompany: they are signed at once.
+  static constexpr std::size_t kMostTied = 64;
 
  private:
   bool decided_well(std::size_t place) const noexcept;
@@ -72,8 +101,14 @@ class PlaceQueue {
   bool loop_;
   std::vector<Place> places_;
   std::vector<std::unique_ptr<const Decision>> decisions_;  ///< [place]; null: undecided
-  std::size_t next_ = 0;                                    ///< the place to sign next
-  std::size_t forgotten_ = 0;                               ///< places dropped since the last `replace`
+  std::vector<Side> usual_;                                 ///< [place] the dominant hand if the place names none
+  std::vector<bool> tied_;                                  ///< [place]
+  std::set<std::size_t> borders_;                           ///< places at which parts or holds begin or end
+  std::vector<ChannelHold> holds_;                          ///< between places
+  std::vector<NonManual> non_manuals_;
+  std::size_t forgotten_non_manuals_ = 0;
+  std::size_t next_ = 0;       ///< the place to sign next
+  std::size_t forgotten_ = 0;  ///< places dropped since the last `replace`
 };
 
 }  // namespace signweave

@@ -27,6 +27,9 @@ struct PlayerOptions {
   Idle idle = Idle::living_rest;  ///< `end`: the frames equal those of `synthesize` for the same tokens
   std::size_t look_ahead = 3;     ///< following places known before a place is decided, unless it is due; 1 to 16
   bool loop = false;
+  /// The stream has the tracks of authored movements of the face, whichever the recordings have. They are there also if
+  /// the first utterance asks for such movements; later ones are shown as far as there are tracks.
+  bool face = false;
   std::string recording;  ///< its signer is shown at rest before anything is signed; empty: that of the first place
 };
 
@@ -65,7 +68,9 @@ struct PlayerEvent {
 /// utterance. It grows at its end and contains at most the last 64 clips.
 struct ShownScore {
   Score score;
-  std::int64_t next = 0;       ///< the frame of the score that is shown next
+  std::int64_t next = 0;  ///< the frame of the score that is shown next
+  /// The frames from here on still change if something follows. The score ends later if lanes differ at its end.
+  std::int64_t known = 0;
   std::size_t first_clip = 0;  ///< number of its first clip in the stream, see PlayerEvent::clip
 };
 

@@ -5,12 +5,13 @@
 #include <algorithm>
 
 #include "signweave/choose/notices.h"
+#include "signweave/live/live_curves.h"
 
 namespace signweave {
 
 std::string key_of(const MotionClip& clip) {
-  return fmt::format("{}:{}-{}-{}-{}", clip.recording, clip.whole.begin, clip.core.begin, clip.core.end,
-                     clip.whole.end);
+  return fmt::format("{}:{}-{}-{}-{}{}", clip.recording, clip.whole.begin, clip.core.begin, clip.core.end,
+                     clip.whole.end, clip.mirrored ? " mirrored" : "");
 }
 
 std::shared_ptr<LiveClip> place_rest(const StreamSetup& setup) {
@@ -47,8 +48,14 @@ std::unique_ptr<StreamSetup> set_up(SharedSigningCache& cache, const Snapshot& s
                                   .method = method,
                                   .rig = setup->rig.get(),
                                   .model = setup->spans != nullptr ? setup->spans->model.get() : nullptr};
+  std::vector<std::string> tracks = cache.tracks(*contents, first.recording);
+  if (options.face) {
+    for (std::string& name : authored_tracks(synthesis.non_manuals.expressions)) {
+      if (std::ranges::find(tracks, name) == tracks.end()) tracks.push_back(std::move(name));
+    }
+  }
   setup->builder.emplace(settings, TransitionTiming{.fit = setup->fit.get(), .tempo = synthesis.tempo},
-                         cache.tracks(*contents, first.recording), synthesis.alignment, first);
+                         std::move(tracks), synthesis.alignment, first);
   if (!synthesis.duration.fixed) say(notice_without_durations(*setup->fit));
   if (options.idle == Idle::living_rest) {
     const std::shared_ptr<const KnownRest> known = cache.rest(snapshot, first, *setup->rig);
@@ -67,9 +74,10 @@ std::unique_ptr<StreamSetup> set_up(SharedSigningCache& cache, const Snapshot& s
                                            setup->builder->tracks(), LivingRestOptions{.seed = cache.new_seed()});
   }
   const Milliseconds fixed = synthesis.duration.fixed.value_or(Milliseconds(-1));
-  setup->key = fmt::format("{} {} {}/{} {} {} {} {} {}", cache.state_number(contents), method->name,
-                           settings.rate.numerator, settings.rate.denominator, synthesis.tempo, fixed.count(),
-                           synthesis.duration.fitted, static_cast<int>(synthesis.alignment), key_of(first));
+  setup->key =
+      fmt::format("{} {} {}/{} {} {} {} {} {} {}", cache.state_number(contents), method->name, settings.rate.numerator,
+                  settings.rate.denominator, synthesis.tempo, fixed.count(), synthesis.duration.fitted,
+                  static_cast<int>(synthesis.alignment), setup->builder->tracks().size(), key_of(first));
   setup->skeleton = source_of(first);
   setup->header = {.skeleton = settings.skeleton,
                    .rate = settings.rate,

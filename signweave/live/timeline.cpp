@@ -17,6 +17,11 @@ void Timeline::append(FrameRange frames, const std::shared_ptr<LiveClip>& clip) 
 void Timeline::append(FrameRange frames, std::shared_ptr<const Motion> made) {
   if (frames.empty()) return;
   const std::int64_t begin = frames.end - made->frame_count();
+  append(frames, std::move(made), begin);
+}
+
+void Timeline::append(FrameRange frames, std::shared_ptr<const Motion> made, std::int64_t begin) {
+  if (frames.empty()) return;
   runs_.push_back({.frames = frames, .clip = {}, .made = std::move(made), .made_begin = begin});
   end_ = frames.end;
 }

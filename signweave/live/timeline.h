@@ -21,6 +21,8 @@ class Timeline {
   /// Appends frames of a clip, or the last frames of a transition.
   void append(FrameRange frames, const std::shared_ptr<LiveClip>& clip);
   void append(FrameRange frames, std::shared_ptr<const Motion> made);
+  /// Appends frames of a motion that begins at output frame `begin`.
+  void append(FrameRange frames, std::shared_ptr<const Motion> made, std::int64_t begin);
   /// Removes everything from `end` on.
   void cut(std::int64_t end) noexcept;
   /// Removes everything; the next frame is `next`.

@@ -10,15 +10,16 @@
 namespace signweave {
 namespace {
 
-/// Frames of another source, the first and the last of them repeated.
+/// Frames of another source, the first and the last of them repeated. Their numbers are those of the source, so that
+/// positions between them are rounded alike; repeated ones before the first may have negative numbers.
 class HeldSource final : public MotionSource {
  public:
-  HeldSource(std::shared_ptr<const MotionSource> source, FrameRange shown, std::int64_t before, std::int64_t after)
-      : source_(std::move(source)), shown_(shown), before_(before), count_(before + shown.size() + after) {}
+  HeldSource(std::shared_ptr<const MotionSource> source, FrameRange shown, std::int64_t after)
+      : source_(std::move(source)), shown_(shown), end_(shown.end + after) {}
 
   const std::shared_ptr<const Skeleton>& skeleton() const noexcept override { return source_->skeleton(); }
   FrameRate rate() const noexcept override { return source_->rate(); }
-  std::int64_t frame_count() const noexcept override { return count_; }
+  std::int64_t frame_count() const noexcept override { return end_; }
   std::span<const std::string> tracks() const noexcept override { return source_->tracks(); }
 
   void read(FrameRange frames, MutablePoses out) const override {
@@ -42,7 +43,7 @@ class HeldSource final : public MotionSource {
     };
     const Split split = split_of(frames);
     repeat(split.before, shown_.begin);
-    if (!split.shown.empty()) source_->read(recorded(split.shown), part(split.shown));
+    if (!split.shown.empty()) source_->read(split.shown, part(split.shown));
     repeat(split.after, shown_.end - 1);
   }
 
@@ -65,7 +66,7 @@ class HeldSource final : public MotionSource {
     };
     const Split split = split_of(frames);
     repeat(split.before, shown_.begin);
-    if (!split.shown.empty()) source_->read_tracks(recorded(split.shown), part_of(split.shown));
+    if (!split.shown.empty()) source_->read_tracks(split.shown, part_of(split.shown));
     repeat(split.after, shown_.end - 1);
   }
 
@@ -74,19 +75,14 @@ class HeldSource final : public MotionSource {
     FrameRange before, shown, after;
   };
   Split split_of(FrameRange frames) const noexcept {
-    const std::int64_t begin = std::clamp(before_, frames.begin, frames.end);
-    const std::int64_t end = std::clamp(before_ + shown_.size(), begin, frames.end);
+    const std::int64_t begin = std::clamp(shown_.begin, frames.begin, frames.end);
+    const std::int64_t end = std::clamp(shown_.end, begin, frames.end);
     return {{frames.begin, begin}, {begin, end}, {end, frames.end}};
-  }
-  FrameRange recorded(FrameRange frames) const noexcept {
-    const std::int64_t shift = shown_.begin - before_;
-    return {frames.begin + shift, frames.end + shift};
   }
 
   std::shared_ptr<const MotionSource> source_;
   FrameRange shown_;
-  std::int64_t before_;
-  std::int64_t count_;
+  std::int64_t end_;
 };
 
 std::int64_t recorded_frames(std::int64_t output, double step) {
@@ -110,11 +106,9 @@ HeldClip hold(const PlacedClip& placed, const HeldFrames& held) {
   const std::int64_t after = recorded_frames(held.after_core + held.at_end, placed.step);
 
   auto made = std::make_shared<MotionClip>(clip);
-  made->source = std::make_shared<HeldSource>(clip.source, shown, before, after);
-  const std::int64_t shift = before - shown.begin;
-  made->whole = {0, made->source->frame_count()};
-  made->core = {clip.core.begin + shift,
-                held.after_core > 0 ? made->whole.end : std::min(made->whole.end, clip.core.end + shift)};
+  made->source = std::make_shared<HeldSource>(clip.source, shown, after);
+  made->whole = {shown.begin - before, made->source->frame_count()};
+  made->core = {clip.core.begin, held.after_core > 0 ? made->whole.end : std::min(made->whole.end, clip.core.end)};
 
   HeldClip result{.clip = made, .placed = placed_by_step(*made, placed.step)};
   PlacedClip& now = result.placed;

@@ -55,8 +55,9 @@ float weight_at(const LaneRun& run, std::size_t clip, std::int64_t frame) noexce
     if (clip == 0 && !run.from_parent) return 1;
     return frame < begin ? 0 : crossfade_weight(frame - begin, placed[clip].core - begin);
   }
-  if (frame < placed[clip].core_end() || clip + 1 == placed.size() || run.places[clip + 1]) return 1;
+  if (frame < placed[clip].core_end() || clip + 1 == placed.size()) return 1;
   const std::int64_t end = placed[clip + 1].core;
+  if (run.places[clip + 1]) return frame < end ? 1 : 0;
   const std::int64_t begin = placed[clip].core_end();
   return frame >= end ? 0 : 1 - crossfade_weight(frame - begin, end - begin);
 }

@@ -16,7 +16,7 @@ std::int64_t chunk_of(const PlacedClip& placed) noexcept {
 
 /// The source frames needed to interpolate some output frames.
 FrameRange needed(const PlacedClip& placed, FrameRange output) {
-  const auto first = static_cast<std::int64_t>(placed.frame_at(output.begin));
+  const auto first = static_cast<std::int64_t>(std::floor(placed.frame_at(output.begin)));
   const auto last = static_cast<std::int64_t>(std::ceil(placed.frame_at(output.end - 1)));
   return {first, std::min(last + 1, placed.captured->source->frame_count())};
 }

@@ -239,6 +239,11 @@ std::vector<FoundPlace> Renderer::find_places(ClipId first, Motion& body) {
   });
 }
 
+std::vector<FoundPlace> Renderer::find_places(ClipId first) {
+  if (!lanes_) return {};
+  return lanes_->find_places(first, [&](FrameRange frames, Motion& out) { render_body(frames, out); });
+}
+
 void Renderer::render_fetched(Motion& out, std::vector<ScalarTrack> used) {
   join_section({.first = 0, .last = plan_.placed.size() - 1, .frames = {0, plan_.frames}}, {out}, std::move(used));
   show_over({out});

@@ -43,6 +43,8 @@ class Renderer {
   /// of clips whose number is at least `first`, see LaneRenderer::find_places. For the creator of a score, who then
   /// calls show_over with a renderer that has them.
   std::vector<FoundPlace> find_places(ClipId first, Motion& body);
+  /// The same without rendering all frames first: for a score of which little is new.
+  std::vector<FoundPlace> find_places(ClipId first);
   /// Shows what lanes and curves add over all frames of the whole body.
   void show_over(Motion& body) { show_over(OutputWindow{body}); }
   /// Renders all frames, after `fetch` has put the captured ones into `out` and returned `used`.

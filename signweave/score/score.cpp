@@ -189,7 +189,8 @@ struct Checker {
   void curves() const {
     for (std::size_t i = 0; i < score.curves.size(); ++i) {
       const AuthoredCurve& one = score.curves[i];
-      require(one.at.begin >= 0 && one.at.begin < one.at.end && one.at.end <= score.frames && one.first <= one.last,
+      require(one.at.begin < one.at.end && one.at.begin < score.frames && one.at.end > 0 &&
+                  one.at.begin >= -kMostFrames && one.at.end <= 2 * kMostFrames && one.first <= one.last,
               "curve {} is at frames {} to {} of {}, of places {} to {}", i, one.at.begin, one.at.end, score.frames,
               one.first, one.last);
       check(one.curve, fmt::format("{}: curve {}", where, i));

@@ -122,7 +122,7 @@ struct JunctionRef {
 /// An authored movement of face, gaze or head over captured motion.
 struct AuthoredCurve {
   Curve curve;
-  FrameRange at;          ///< output frames; not empty
+  FrameRange at;          ///< output frames; not empty. It may begin before the output and end after it
   std::size_t first = 0;  ///< the first place that it accompanies, from 0
   std::size_t last = 0;   ///< inclusive
   friend bool operator==(const AuthoredCurve&, const AuthoredCurve&) = default;

@@ -1,0 +1,282 @@
+#include <algorithm>
+#include <utility>
+
+#include "signweave/choose/part_choice.h"
+#include "signweave/live/live_score.h"
+
+// Places in which single channels show something else than the body. They are placed together (LaneStep).
+namespace signweave {
+bool LiveScore::tail_is_last_sign() const noexcept {
+  return state_ == State::at_core && !chain_.empty() && chain_.back() == last_sign_.clip && !entries_.empty();
+}
+
+/// Makes frames of the tail's recording available up to `end`, so that the recorded transition can follow.
+void LiveScore::extend_tail(std::int64_t end) {
+  LiveClip& clip = tail();
+  if (clip.captured.whole.end >= end) return;
+  const PlacedClip before = clip.placed;
+  clip.captured.whole.end = end;
+  setup_->builder->place_sign(clip);
+  clip.placed.core = before.core;
+  clip.placed.core_frames = before.core_frames;
+  clip.placed.before = before.before;
+  clip.placed.standing = before.standing;
+  clip.key.clear();
+}
+
+/// The clips of places; neighbours in a recording are one clip, except where a part or a hold begins or ends.
+std::vector<LiveScore::Entry> LiveScore::clips_of_places(std::size_t first, std::size_t last, StepClips& clips,
+                                                         Candidate& signs) {
+  std::vector<Entry> placed;
+  for (std::size_t place = first; place <= last; ++place) {
+    const PlaceQueue::Decision& decision = queue_.decide_now(place);
+    const Candidate& candidate = decision.candidate;
+    const bool is_first = placed.empty();
+    const bool can_follow = is_first ? tail_is_last_sign() && last_sign_.signs : true;
+    const bool follows = can_follow && queue_.follows(is_first ? *last_sign_.signs : signs, place);
+    if (follows && !is_first && !queue_.is_border(place)) {
+      extend_with(signs, candidate);
+      LiveClip& clip = *clips.body.back();
+      clip.captured.core = signs.core;
+      clip.captured.whole = signs.whole;
+      clip.captured.signs = signs.signs;
+      clip.captured.sign_places.resize(signs.signs.size(), place + queue_.forgotten());
+      placed.back().last = place;
+      continue;
+    }
+    auto clip = std::make_shared<LiveClip>();
+    clip->captured = clip_of(*decision.contents, candidate, place);
+    clip->captured.sign_places.assign(candidate.signs.size(), place + queue_.forgotten());
+    set_up_for(clip->captured, decision.contents);
+    if (follows) {
+      clip->captured.continues = true;
+      if (is_first) {
+        extend_tail(candidate.core.begin);
+      } else {
+        FrameRange& whole = clips.body.back()->captured.whole;
+        whole.end = std::max(whole.end, candidate.core.begin);
+      }
+    }
+    signs = candidate;
+    clips.body.push_back(clip);
+    placed.push_back({.clip = std::move(clip), .first = place, .last = place});
+  }
+  return placed;
+}
+
+void LiveScore::add_parts(std::size_t first, std::size_t last, const std::vector<Entry>& placed, StepClips& clips) {
+  const std::size_t before = first > 0 && tail_is_last_sign() && queue_.is_decided(first - 1) ? 1 : 0;
+  Utterance utterance = queue_.part(first - before, last);
+  if (before > 0) utterance.places.front().parts.clear();
+  const Snapshot& snapshot = open_.snapshot();
+  const std::vector<PartChoice> parts = part_choices(snapshot.contents(), utterance, queue_.dominant(first));
+  if (parts.empty()) return;
+  std::vector<const Candidate*> chosen;
+  std::vector<std::size_t> clip_of_place;  // see StepClips::parts
+  const std::size_t tails = chain_.empty() ? 0 : 1;
+  if (before > 0) {
+    chosen.push_back(&queue_.chosen(first - 1));
+    clip_of_place.push_back(0);
+  }
+  for (std::size_t i = 0; i < placed.size(); ++i) {
+    for (std::size_t place = placed[i].first; place <= placed[i].last; ++place) {
+      chosen.push_back(&queue_.chosen(place));
+      clip_of_place.push_back(tails + i);
+    }
+  }
+  const Seconds transition = cache_.durations(snapshot.shared_contents(), options_.synthesis.duration)->mean;
+  const std::vector<ChosenPart> found =
+      choose_parts(snapshot, parts, chosen, std::vector<Choice>(chosen.size()), {.transition = transition});
+  for (const ChosenPart& part : found) {
+    auto clip = std::make_shared<LiveClip>();
+    const std::size_t place = first - before + part.part->place;
+    clip->captured = clip_of(snapshot.contents(), part.candidate, place, part.mirrored);
+    clip->captured.pause_before = Milliseconds(0);
+    clip->captured.sign_places.assign(part.candidate.signs.size(), place + queue_.forgotten());
+    clips.parts.clips.push_back(channel_clip(part, clip_of_place));
+    clips.of_parts.push_back(std::move(clip));
+  }
+}
+
+void LiveScore::add_holds(std::size_t first, std::size_t last, const std::vector<Entry>& placed,
+                          StepClips& clips) const {
+  const std::size_t tails = chain_.empty() ? 0 : 1;
+  const auto clip_of_place = [&](std::size_t place) {
+    std::size_t i = 0;
+    while (placed[i].last < place) ++i;
+    return tails + i;
+  };
+  for (const ChannelHold& held : queue_.holds()) {
+    if (held.from >= last || held.until < first) continue;
+    if (held.from < first && !tail_is_last_sign()) continue;  // something else was shown since
+    clips.parts.holds.push_back({.channel = held.channel,
+                                 .from = held.from < first ? 0 : clip_of_place(held.from),
+                                 .until = clip_of_place(std::min(held.until, last))});
+  }
+}
+
+void LiveScore::sign_in_channels(std::size_t first) {
+  const std::size_t last = queue_.last_tied_to(first);
+  queue_.continue_at(last + 1);
+  StepClips clips;
+  Candidate signs;  // of the last clip
+  std::vector<Entry> placed = clips_of_places(first, last, clips, signs);
+  leave_idle();
+  const bool joined = tail_is_last_sign() && chain_.back() == entries_.back().clip;
+  add_parts(first, last, placed, clips);
+  add_holds(first, last, placed, clips);
+  const StepPtr step = take_step(clips);
+  step_ = step;
+
+  // The utterance's time goes on from its last sign, or begins with the first preparation.
+  const PlacedClip& front = placed.front().clip->placed;
+  std::int64_t begin = 0;
+  if (!entries_.empty()) begin = entries_.back().core + entries_.back().clip->placed.core_frames;
+  const std::int64_t shift =
+      joined ? entries_.back().core - entries_.back().clip->placed.core : begin + front.preparation - front.core;
+  for (Entry& entry : placed) {
+    entry.step = step;
+    entry.joined = joined;
+    entry.begin = std::max(begin, step->begin + shift);
+    entry.core = entry.clip->placed.core + shift;
+    entries_.push_back(entry);
+  }
+  last_sign_ = {.clip = entries_.back().clip, .signs = std::move(signs)};
+  state_ = State::at_core;
+  report_setup(entries_[entries_.size() - placed.size()]);
+  for (std::size_t i = entries_.size() - placed.size(); i < entries_.size(); ++i) report_places(entries_[i], 0);
+}
+
+/// Places new clips after the chain and shows what is decided.
+LiveScore::StepPtr LiveScore::take_step(const StepClips& clips) {
+  for (const auto* const all : {&clips.body, &clips.of_parts}) {
+    for (const ClipPtr& clip : *all) {
+      if (clips.rests) continue;
+      setup_->builder->place_sign(*clip);
+      setup_->builder->place_first(*clip);
+    }
+  }
+  auto step = std::make_shared<const LaneStep>(make_step(chain_, end(), clips, *setup_, options_.synthesis.tempo));
+  chain_.add(step->links);
+  timeline_.append({end(), std::min(chain_.core_end(), step->end())}, step->made, step->begin);
+  return step;
+}
+
+void LiveScore::go_to_rest_in_channels() {
+  const ClipPtr rest = place_rest(*setup_);
+  rest->key = "rest";
+  const std::int64_t core_end = tail().placed.core_end();
+  take_step({.body = {rest}, .rests = true});
+  state_ = State::resting;
+  events_.push_back({.kind = PlayerEvent::Kind::rest,
+                     .frame = static_cast<std::uint64_t>(end()),
+                     .at = end_of_last_sign() + time_of(end() - core_end)});
+  timeline_.append({end(), end() + kRestFramesAtOnce}, rest);
+}
+
+/// As finish_sign, among signs that were placed together: ends the timeline with the one that is shown if it ends soon.
+bool LiveScore::finish_in_channels(std::int64_t next, const FrameRing& shown) {
+  const auto entry = std::ranges::find_if(entries_, [&](const Entry& one) {
+    return one.step && one.clip->placed.core <= next && next < one.clip->placed.core_end();
+  });
+  if (entry == entries_.end()) return false;
+  const std::int64_t core_end = entry->clip->placed.core_end();
+  const auto soon = static_cast<std::int64_t>(kFinished.count() * setup_->header.rate.hertz());
+  if (core_end - next > soon || core_end > end()) return false;
+  FrameRing left(setup_->header.shape(), static_cast<std::size_t>(core_end - next));
+  for (std::int64_t frame = next; frame < core_end;) {
+    const std::int64_t count = std::min(timeline_.end_of_same(frame), core_end) - frame;
+    timeline_.read({frame, frame + count}, *setup_->builder, left);
+    left.grow(count);
+    frame += count;
+  }
+  Motion rest = shown_frames(0, left.end(), left);
+  curves_.show({rest, next}, setup_->builder->settings());
+  curves_.clear();  // the frames have them
+  const std::int64_t first = std::max(shown.begin(), next - history());
+  Motion frames = shown_frames(first, next, shown);
+  std::vector<ScalarTrack> tracks = frames.take_tracks();
+  for (std::int64_t frame = 0; frame < rest.frame_count(); ++frame) {
+    const MutablePoseView pose = rest.pose(frame);
+    for (std::size_t joint = 0; frames.frame_count() > 0 && joint < pose.rotations.size(); ++joint) {
+      const Eigen::Quaternionf& before = frames.pose(frames.frame_count() - 1).rotations[joint];
+      if (before.dot(pose.rotations[joint]) < 0) pose.rotations[joint].coeffs() *= -1.0f;
+    }
+    frames.append(std::as_const(rest).pose(frame));
+  }
+  for (std::size_t i = 0; i < tracks.size(); ++i) {
+    const std::vector<float>& after = rest.tracks()[i].values;
+    tracks[i].values.insert(tracks[i].values.end(), after.begin(), after.end());
+    frames.add_track(std::move(tracks[i]));
+  }
+  const ClipPtr finished = shown_clip(std::move(frames), first);
+  chain_.begin(finished);
+  last_sign_ = {.clip = finished, .signs = {}};
+  cut(next);
+  timeline_.append({next, core_end}, finished);
+  state_ = State::at_core;
+  return true;
+}
+
+/// As seek, to a frame of signs that were placed together, of which entry `index` is the last one.
+void LiveScore::seek_in_step(std::size_t index, std::int64_t at, std::int64_t next) {
+  const auto first_of_step = [&](std::size_t entry) {
+    while (entry > 0 && entries_[entry - 1].step == entries_[entry].step) --entry;
+    return entry;
+  };
+  // What was shown before the utterance is not shown again: then the signs are made without it.
+  const auto is_shown_again = [&](const LaneStep& step) {
+    return std::ranges::none_of(step.links, [](const std::deque<LiveLink>& lane) {
+      return lane.front().clip->captured.kind == SourceRef::Kind::shown;
+    });
+  };
+  std::size_t first = first_of_step(index);
+  while (entries_[first].joined && !is_shown_again(*entries_[first].step)) {
+    index = first - 1;
+    at = entries_[index].core;
+    if (!entries_[index].step) break;
+    first = first_of_step(index);
+  }
+  if (!entries_[index].step) {
+    entries_.resize(index + 1);
+    seek(at, next);
+    return;
+  }
+  const Entry& entry = entries_[first];
+  auto step = std::make_shared<LaneStep>(*entry.step);
+  cut(next);
+  timeline_.restart(next);
+  chain_.clear();
+  if (entry.joined) {
+    const std::int64_t begin = entry.core - step->to_core(entry.clip);
+    at = std::max(at, begin);
+    step->move_to(next - (at - begin));
+    chain_.add(step->links);
+  } else {
+    const std::int64_t begin = entry.core - entry.clip->placed.preparation;
+    at = std::max(at, begin);
+    entry.clip->cuts.reset();
+    *step = make_step(chain_, next - (at - begin), without_tail(step->clips, step->had_tail), *setup_,
+                      options_.synthesis.tempo);
+    chain_.add(step->links);
+    for (std::size_t i = first; i <= index; ++i) entries_[i].core = begin + step->to_core(entries_[i].clip);
+  }
+  if (const std::int64_t late = next + 1 - chain_.core_end(); late > 0) {  // back to the last decided frame
+    at -= late;
+    step->move_to(step->begin + late);
+  }
+  timeline_.append({next, std::min(chain_.core_end(), step->end())}, step->made, step->begin);
+  // The last clip may have been continued as captured since.
+  timeline_.append({std::max(next, step->end()), chain_.core_end()}, chain_.back());
+  events_.push_back({.kind = PlayerEvent::Kind::seek, .frame = static_cast<std::uint64_t>(next), .at = time_of(at)});
+  entries_.resize(index + 1);
+  for (std::size_t i = first; i <= index; ++i) entries_[i].step = step;
+  step_ = step;
+  queue_.continue_at(entries_.back().last + 1);
+  last_sign_ = {.clip = entries_.back().clip, .signs = {}};
+  state_ = State::at_core;
+  show_authored(next);
+  for (std::size_t i = first; i < entries_.size(); ++i) report_places(entries_[i], next);
+}
+
+}  // namespace signweave

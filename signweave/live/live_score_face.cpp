@@ -1,0 +1,78 @@
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "signweave/choose/non_manuals.h"
+#include "signweave/live/live_score.h"
+
+// Authored movements of the face, the gaze and the head. They are shown over the frames of the timeline when these are
+// read, so what lanes show does not depend on them.
+namespace signweave {
+namespace {
+
+/// A movement may last this much longer than the last sign. (ours)
+constexpr Seconds kAfterLast{60.0};
+
+}  // namespace
+
+/// Adds the non-manuals whose places are all signed. Frames before `from` are decided.
+void LiveScore::author(std::int64_t from) {
+  if (entries_.empty() || queue_.non_manuals().empty()) return;
+  const std::size_t forgotten = queue_.forgotten_non_manuals();
+  Score times;  // in the utterance's time
+  for (std::size_t i = 0; i < queue_.non_manuals().size(); ++i) {
+    NonManual one = queue_.non_manuals()[i];
+    const bool is_known = std::ranges::find(authored_, forgotten + i, &Authored::number) != authored_.end();
+    if (is_known || one.last >= queue_.next() || one.last < entries_.front().first) continue;
+    if (times.clips.empty()) times = times_of_entries();
+    one.first += queue_.forgotten();
+    one.last += queue_.forgotten();
+    std::vector<Notice> notices;
+    for (AuthoredCurve& curve : author_non_manuals({.places = {}, .holds = {}, .non_manuals = {one}}, times,
+                                                   options_.synthesis.non_manuals, notices)) {
+      const std::int64_t shift = entries_.back().clip->placed.core - entries_.back().core;
+      curve.at.begin = std::max(curve.at.begin, from - shift);
+      curve.at.end = std::max(curve.at.end, curve.at.begin + 1);
+      authored_.push_back({.number = forgotten + i, .curve = curve});
+      curve.at = {curve.at.begin + shift, curve.at.end + shift};
+      curves_.add(std::move(curve));
+    }
+    for (const Notice& notice : notices) {
+      events_.push_back({.kind = PlayerEvent::Kind::notice,
+                         .frame = static_cast<std::uint64_t>(from),
+                         .place = one.first,
+                         .text = notice.text});
+    }
+  }
+}
+
+/// The clips of the utterance, in its time.
+Score LiveScore::times_of_entries() const {
+  Score times{.skeleton = {}, .rate = setup_->header.rate, .clips = {}, .junctions = {}, .lanes = {}};
+  Lane& body = times.lanes.emplace_back();
+  for (const Entry& entry : entries_) {
+    PlacedClip placed = entry.clip->placed;
+    placed.core = entry.core;
+    const auto id = static_cast<ClipId>(times.clips.size());
+    times.clips.push_back(signweave::clip_of(placed, id));
+    body.items.push_back({ClipUse{id}, times.clips.back().at});
+  }
+  times.frames = times.clips.back().at.end + std::llround(kAfterLast.count() * times.rate.hertz());
+  return times;
+}
+
+/// Shows the movements of the utterance again after a jump to another of its times.
+void LiveScore::show_authored(std::int64_t next) {
+  const std::int64_t shift = entries_.back().clip->placed.core - entries_.back().core;
+  std::erase_if(authored_,
+                [&](const Authored& one) { return one.curve.first > entries_.back().last + queue_.forgotten(); });
+  std::vector<AuthoredCurve> shown;
+  for (const Authored& one : authored_) {
+    AuthoredCurve& curve = shown.emplace_back(one.curve);
+    curve.at = {curve.at.begin + shift, curve.at.end + shift};
+    if (curve.at.end <= next) shown.pop_back();
+  }
+  curves_.set(std::move(shown));
+}
+
+}  // namespace signweave

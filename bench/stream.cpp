@@ -3,15 +3,17 @@
 // client that reads nothing costs. The server is a separate process.
 //
 // Arguments: --quick is the shortest form; --database FOLDER uses that database instead of generating 44 minutes of the
-// demo corpus; --only PART measures one of: codec, first, long, paced, batches, stalled; --streams N uses only N paced
-// streams; --no-io-uring: the server sends each message by a separate system call.
+// demo corpus; --only PART measures one of: codec, first, long, paced, lanes, batches, stalled; --streams N uses only N
+// paced streams; --no-io-uring: the server sends each message by a separate system call.
 
 #include <sys/resource.h>
 #include <unistd.h>
 
 #include <fstream>
+#include <functional>
 #include <stdexcept>
 #include <thread>
+#include <tuple>
 
 #include "bench/measure.h"
 #include "bench/stream_load/paced.h"
@@ -35,6 +37,7 @@ struct Size {
   std::size_t long_utterance = 1000;
   int long_rounds = 201;
   std::vector<std::size_t> paced = {100, 500, 1000};
+  std::size_t in_lanes = 500;
   double settle = 2;
   double first_seconds = 5;
   double until_again = 10;  // by then the longest of the utterances has begun again
@@ -164,11 +167,12 @@ struct Looped {
   Paced again;
 };
 
-Looped paced_by_server(const Server& server, Utterances& utterances, std::size_t count, const Size& size) {
+Looped paced_by_server(const Server& server, const std::function<std::string()>& utterance, std::size_t count,
+                       const Size& size) {
   std::vector<std::unique_ptr<Connection>> streams;
   for (std::size_t i = 0; i < count; ++i) {
     streams.push_back(server.open(kLoop));
-    streams.back()->send(control("sign", utterances.of(kOfPaced)));
+    streams.back()->send(control("sign", utterance()));
     if (i % 20 > 0) continue;
     for (const auto& stream : streams)
       stream->read([](const Connection::Message&) {});  // reads, so that no client is slow
@@ -237,7 +241,8 @@ void print_paced(const std::string& name, const Paced& ours, const Paced& bare) 
 void paced_streams(const Server& server, Utterances& utterances, const std::filesystem::path& work, const Size& size) {
   for (const std::size_t count : size.paced) {
     const std::string name = fmt::format("stream/paced:{}", count);
-    const Looped ours = paced_by_server(server, utterances, count, size);
+    const Looped ours = paced_by_server(
+        server, [&] { return utterances.of(kOfPaced); }, count, size);
     const Paced bare = paced_by_bare_loop(count, ours.again.message_bytes, kBareTick, work, size);
     const Paced slower = paced_by_bare_loop(count, ours.again.message_bytes, kServersTick, work, size);
     print_paced(name, ours.again, bare);
@@ -249,6 +254,24 @@ void paced_streams(const Server& server, Utterances& utterances, const std::file
     const double of_client = ours.again.client_cpu_seconds / ours.again.seconds;
     const double against_bare = bare.client_cpu_seconds / bare.seconds;
     print(name + "/cores_of_the_client", of_client, "cores", against_bare, of_client / against_bare, "-");
+  }
+}
+
+/// Streams in which three channels differ from the body, against the same number of whole-body ones.
+void lanes(const Server& server, Utterances& utterances, const Size& size) {
+  const std::size_t count = size.in_lanes;
+  const std::string name = fmt::format("stream/lanes:{}", count);
+  const Looped whole = paced_by_server(
+      server, [&] { return utterances.of(kOfPaced); }, count, size);
+  const Looped ours = paced_by_server(
+      server, [&] { return utterances.in_four_lanes(kOfPaced); }, count, size);
+  for (const auto& [part, a, b] : {std::tuple(std::string(), &ours.again, &whole.again),
+                                   {std::string("/first_time"), &ours.first_time, &whole.first_time}}) {
+    print_missed(name + part + "/missed_of_due", *a);
+    print_missed(name + part + "/whole_body/missed_of_due", *b);
+    print_lateness(name + part, *a);
+    print(name + part + "/cpu_a_frame_against_whole_body", us_a_frame(*a), "us", us_a_frame(*b),
+          us_a_frame(*a) / us_a_frame(*b), part.empty() ? "<= 1.5" : "-");
   }
 }
 
@@ -367,7 +390,7 @@ int main(int argc, char** argv) {
   for (std::size_t i = 0; i < words.size(); ++i) {
     if (words[i] == "--quick") {
       minutes = 2;
-      size = {30, 20, 100, 7, {50}, 0.5, 1, 0.5, 1.5, 2, 0.2, 10, 0.5};
+      size = {30, 20, 100, 7, {50}, 50, 0.5, 1, 0.5, 1.5, 2, 0.2, 10, 0.5};
     } else if (words[i] == "--database" && i + 1 < words.size()) {
       database = words[++i];
     } else if (words[i] == "--only" && i + 1 < words.size()) {
@@ -375,7 +398,8 @@ int main(int argc, char** argv) {
     } else if (words[i] == "--no-io-uring") {
       options.push_back(words[i]);
     } else if (words[i] == "--streams" && i + 1 < words.size()) {
-      size.paced = {std::stoul(words[++i])};
+      size.in_lanes = std::stoul(words[++i]);
+      size.paced = {size.in_lanes};
     } else {
       fmt::print(stderr, "bench_stream: no argument '{}'\n", words[i]);
       return 2;
@@ -401,6 +425,7 @@ int main(int argc, char** argv) {
     measure("first", [&](const Server& server) { first_frames(server, utterances, size); });
     measure("long", [&](const Server& server) { long_utterances(server, utterances, size); });
     measure("paced", [&](const Server& server) { paced_streams(server, utterances, work.path(), size); });
+    measure("lanes", [&](const Server& server) { lanes(server, utterances, size); });
     measure("batches", [&](const Server& server) { batches(server, utterances, work.path(), size); });
     measure("stalled", [&](const Server& server) { stalled_clients(server, utterances, size); });
   } catch (const std::exception& error) {

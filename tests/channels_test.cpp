@@ -323,17 +323,5 @@ TEST(ChannelsTest, WhatSignersRarelyDoIsReportedOrRefused) {
   }
 }
 
-TEST(ChannelsTest, AStreamRefusesPartsInOneLine) {
-  SharedSigningCache cache(corpus());
-  Player player(cache, {});
-  try {
-    player.sign(everything());
-    FAIL();
-  } catch (const Error& error) {
-    EXPECT_EQ(error.code(), ErrorCode::unsupported);
-    EXPECT_THAT(error.what(), HasSubstr("a stream signs with the whole body"));
-  }
-}
-
 }  // namespace
 }  // namespace signweave::channels

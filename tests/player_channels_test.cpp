@@ -88,6 +88,79 @@ TEST_P(PlayerChannels, ShowFaceGazeAndHead) {
   }
 }
 
+/// The weight of a track in each frame that a stream shows.
+std::vector<float> shown(Player& player, const std::string& track, std::size_t most) {
+  std::vector<float> values;
+  player.prepare(32);
+  const StreamHeader& header = *player.header();
+  const auto at = std::ranges::find(header.tracks, track) - header.tracks.begin();
+  Motion room(header.skeleton, header.rate, 1);
+  std::vector<float> tracks(header.tracks.size());
+  while (values.size() < most && player.prepare(32) > 0 && player.next({room.pose(0), tracks})) {
+    values.push_back(tracks[static_cast<std::size_t>(at)]);
+  }
+  return values;
+}
+
+TEST(PlayerChannelsAppended, LetABrowGoOn) {
+  const auto weights = [](const char* first, const char* then) {
+    Player player(shared_cache(), {.idle = Idle::end});
+    player.sign(parse_utterance(first));
+    std::vector<float> all = shown(player, "browInnerUp", 40);
+    if (*then != 0) player.append(parse_utterance(then));
+    const std::vector<float> rest = shown(player, "browInnerUp", 10'000);
+    all.insert(all.end(), rest.begin(), rest.end());
+    return all;
+  };
+  const std::vector<float> at_once = weights("{brows up: VANNES#1 MATIN#1 RENNES#1}", "");
+  EXPECT_EQ(weights("{brows up: VANNES#1 MATIN#1}", "{brows up: RENNES#1}"), at_once);
+  EXPECT_NE(weights("{brows up: VANNES#1 MATIN#1}", "RENNES#1"), at_once);
+  EXPECT_NE(weights("{brows up: VANNES#1 MATIN#1}", "{brows up -40: RENNES#1}"), at_once);
+}
+
+TEST(PlayerChannelsAppended, HoldAHandOn) {
+  ComparedPlayer stream({.idle = Idle::end});
+  UtteranceWords words;
+  words.follows = true;
+  stream.player().sign(parse_utterance("VANNES#1 MATIN#1"));
+  stream.take(20);
+  stream.player().append(parse_utterance("[RENNES#1 | weak: hold]", words));
+  stream.take(64);
+  stream.player().append(parse_utterance("[VENT#1 | weak: hold] PLUIE#1", words));
+  show_all(stream);
+  const std::optional<ShownScore> live = stream.player().score();
+  const Lane& left = *lane_of(live->score, Channel::left);
+  std::vector<std::string> glosses;
+  for (const LaneLink& link : chain_of(left)) glosses.push_back(live->score.clips[link.clip].signs.front().gloss);
+  EXPECT_THAT(glosses, testing::ElementsAre("VANNES", "MATIN", "PLUIE"));
+}
+
+TEST(PlayerChannelsAppended, RefuseAHoldOfNothing) {
+  Player player(shared_cache(), {});
+  UtteranceWords words;
+  words.follows = true;
+  const Utterance held = parse_utterance("[RENNES | weak: hold]", words);
+  for (const bool appended : {true, false}) {
+    try {
+      appended ? player.append(held) : player.sign(held);
+      FAIL();
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ErrorCode::bad_input);
+      EXPECT_THAT(error.what(), HasSubstr("nothing to hold"));
+    }
+  }
+}
+
+TEST(PlayerChannelsAppended, RefuseMoreThanCanBeSignedAtOnce) {
+  Player player(shared_cache(), {});
+  std::string text = "{neg:";
+  for (int i = 0; i < 65; ++i) text += " VANNES";
+  EXPECT_THROW(player.sign(parse_utterance(text + "}")), Error);
+  EXPECT_THROW(player.sign(parse_utterance("{no such face: VANNES}")), Error);
+  EXPECT_THROW(player.sign(parse_utterance("[VANNES | weak: NO-SUCH-GLOSS]")), Error);
+  EXPECT_TRUE(player.idle());
+}
+
 TEST(PlayerChannelsAtRandom, ShowWhatTheirScoreRendersWhateverIsRequested) {
   const std::vector<std::string> glosses = corpus().contents()->segments.glosses();
   std::size_t compared = 0;

@@ -200,8 +200,11 @@ ControlMessage parse_control(std::string_view text, const UtteranceWords& words)
     }
     message.control = control_of(object);
     read_fields(message, object);
-    if (message.control == Control::sign || message.control == Control::append)
-      message.utterance = parse_utterance(message.utterance_text, words);
+    if (message.control == Control::sign || message.control == Control::append) {
+      UtteranceWords known = words;
+      known.follows = message.control == Control::append;
+      message.utterance = parse_utterance(message.utterance_text, known);
+    }
   } catch (const nlohmann::json::exception& error) {
     const std::string_view what = error.what();  // "[json.exception.parse_error.101] parse error at …"
     const std::size_t mark = what.find("] ");

@@ -76,10 +76,20 @@ std::string control(std::string_view type, std::string_view utterance) {
 Utterances::Utterances(const std::filesystem::path& database)
     : glosses_(Database(database, kv::Access::read_only).snapshot().contents().segments.glosses()) {}
 
+std::string Utterances::one() {
+  return to_string(GlossRef{.gloss = glosses_[random_() % glosses_.size()]});
+}
+
 std::string Utterances::of(std::size_t glosses) {
   std::string text;
-  for (std::size_t i = 0; i < glosses; ++i) {
-    text += to_string(GlossRef{.gloss = glosses_[random_() % glosses_.size()]}) + " ";
+  for (std::size_t i = 0; i < glosses; ++i) text += one() + " ";
+  return text;
+}
+
+std::string Utterances::in_four_lanes(std::size_t places) {
+  std::string text;
+  for (std::size_t i = 0; i < places; ++i) {
+    text += fmt::format("{}{{weak: {}; fingers: {}; head: {}}} ", one(), one(), one(), one());
   }
   return text;
 }

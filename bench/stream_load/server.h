@@ -47,8 +47,12 @@ class Utterances {
   explicit Utterances(const std::filesystem::path& database);
   /// So many random glosses, one after another.
   std::string of(std::size_t glosses);
+  /// So many places in which the other hand, the fingers and the head have random glosses of their own.
+  std::string in_four_lanes(std::size_t places);
 
  private:
+  std::string one();
+
   std::vector<std::string> glosses_;
   std::mt19937 random_{1};
 };

@@ -120,7 +120,7 @@ std::set<std::size_t> clip_borders(const Utterance& utterance) {
     borders.insert(i + 1);
   }
   for (const HandHold& held : utterance.holds) {
-    borders.insert(held.from + 1);
+    borders.insert(held.from == kPlaceBefore ? 0 : held.from + 1);
     borders.insert(held.until + 1);
   }
   return borders;
@@ -176,7 +176,8 @@ ChannelClip channel_clip(const ChosenPart& chosen, std::span<const std::size_t> 
 std::vector<ChannelHold> channel_holds(const Utterance& utterance, Side dominant) {
   std::vector<ChannelHold> holds;
   for (const HandHold& held : utterance.holds) {
-    const Side of_place = utterance.places[held.from].dominant.value_or(dominant);
+    const std::size_t named = held.from == kPlaceBefore ? 0 : held.from;
+    const Side of_place = utterance.places[named].dominant.value_or(dominant);
     holds.push_back({.channel = channel_of(held.hand, of_place), .from = held.from, .until = held.until});
   }
   return holds;

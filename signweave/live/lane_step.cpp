@@ -4,12 +4,18 @@
 #include <limits>
 #include <optional>
 
+#include <fmt/format.h>
+
 #include "signweave/choose/compose.h"
+#include "signweave/core/error.h"
 #include "signweave/render/render.h"
 #include "signweave/score/lane_chain.h"
 
 namespace signweave {
 namespace {
+
+/// Maximum number of frames made at once.
+constexpr std::int64_t kMostMade = 60'000;
 
 /// The last clips of a stream with the new ones, on a time grid that begins with the first of their cores.
 class StepWindow {
@@ -51,41 +57,96 @@ class StepWindow {
     return compose_after(before_, clips_, body_, parts_, settings, options);
   }
 
-  /// Gives the new clips the places that they have in a score.
-  void take_places(const Score& score) {
+  /// Everything that the frames from `begin` on depend on; empty: unknown.
+  std::string key(std::int64_t begin, const StepClips& clips, const StreamSetup& setup) const {
+    std::string key = fmt::format("{}|{}|{}", setup.key, body_, clips.rests);
     for (std::size_t i = 0; i < live_.size(); ++i) {
-      if (before_.fixed[i]) continue;
-      const Clip& clip = score.clips[i];
-      PlacedClip& placed = live_[i]->placed;
-      if (clip.step != placed.step || clip.at.size() != placed.core_frames) {  // it fills another clip
-        const std::optional<GroundTransform> standing = placed.standing;
-        placed = placed_by_step(live_[i]->captured, clip.step);
-        placed.core_frames = clip.at.size();
-        placed.standing = standing;
+      if (live_[i]->key.empty()) return {};
+      key += '|' + live_[i]->key;
+      if (before_.fixed[i]) {
+        key += fmt::format(" at {} {}", live_[i]->placed.core - begin, live_[i]->placed.core_frames);
+      } else {
+        key += fmt::format(" new {} {}", clips_[i].pause_before.count(), clips_[i].continues);
       }
-      placed.core = base_ + clip.at.begin;
     }
+    for (const ChannelStart& start : before_.starts) {
+      key += fmt::format("|{}", name_of(start.channel));
+      for (const ChannelLink& link : start.links) {
+        key += fmt::format(" {} {}", link.clip, link.held_until ? static_cast<std::int64_t>(*link.held_until) : -1);
+        if (const auto& place = before_.places[link.clip]) {
+          key += fmt::format(" {} {} {} {} {}", static_cast<int>(place->anchor), static_cast<int>(place->kept_in),
+                             place->out.x(), place->out.y(), place->out.z());
+        }
+      }
+    }
+    for (std::size_t i = before_.known_parts; i < parts_.clips.size(); ++i) {
+      const ChannelClip& part = parts_.clips[i];
+      key += fmt::format("|{} {} {} {}", name_of(part.channel), part.first, part.last, part.fill);
+      for (const ClipSync& sync : part.sync) {
+        key += fmt::format(" {} {} {}", static_cast<int>(sync.anchor), sync.with, sync.offset.count());
+      }
+    }
+    for (const ChannelHold& held : parts_.holds) {
+      key += fmt::format("|hold {} {} {}", name_of(held.channel), held.from, held.until);
+    }
+    return key;
   }
 
-  LiveLanes links(const Score& score) const {
+  MadeStep made_of(const Score& score, std::int64_t begin, std::shared_ptr<const Motion> frames) const {
+    MadeStep made{.frames = std::move(frames), .clips = {}, .lanes = {}};
+    for (const Clip& clip : score.clips) {
+      made.clips.push_back(
+          {.to_core = base_ + clip.at.begin - begin, .step = clip.step, .core_frames = clip.at.size()});
+    }
     const std::vector<ChannelChain> chains = channel_chains(parts_, clips_, body_, before_.starts, before_.known_parts);
-    LiveLanes links;
     for (const Channel channel : kAllChannels) {
-      const auto own = std::ranges::find(chains, channel, &ChannelChain::channel);
-      const ChannelChain& shown =
-          own != chains.end() ? *own : *std::ranges::find(chains, *parent_of(channel), &ChannelChain::channel);
-      const LaneChain lane = chain_of(*lane_of(score, shown.channel));
-      std::deque<LiveLink>& made = links[static_cast<std::size_t>(channel)];
+      auto shown = std::ranges::find(chains, channel, &ChannelChain::channel);
+      if (shown == chains.end()) shown = std::ranges::find(chains, *parent_of(channel), &ChannelChain::channel);
+      const LaneChain lane = chain_of(*lane_of(score, shown->channel));
       for (std::size_t i = 0; i < lane.size(); ++i) {
-        const std::optional<std::size_t> until = shown.links[i].held_until;
-        made.push_back({.clip = live_[lane[i].clip],
-                        .held = i + 1 < lane.size() ? lane[i].held : 0,
-                        .held_until = until ? live_[*until] : nullptr,
-                        .cut = lane[i].cut,
-                        .place = side_of_arm(channel) ? lane[i].place : std::nullopt});
+        made.lanes[static_cast<std::size_t>(channel)].push_back(
+            {.clip = lane[i].clip,
+             .held = i + 1 < lane.size() ? lane[i].held : 0,
+             .held_until = shown->links[i].held_until,
+             .cut = lane[i].cut,
+             .place = side_of_arm(channel) ? lane[i].place : std::nullopt});
       }
     }
-    return links;
+    return made;
+  }
+
+  /// The step of this window's clips. Gives the new ones their places.
+  LaneStep step_of(const MadeStep& made, std::int64_t begin) const {
+    LaneStep step{.made = made.frames, .begin = begin, .links = {}, .cores = {}, .clips = {}};
+    for (std::size_t i = 0; i < live_.size(); ++i) {
+      const MadeStep::Placed& at = made.clips[i];
+      step.cores.emplace_back(live_[i], at.to_core);
+      if (before_.fixed[i]) continue;
+      PlacedClip& placed = live_[i]->placed;
+      if (at.step != placed.step || at.core_frames != placed.core_frames) {  // it fills another clip
+        const std::optional<GroundTransform> standing = placed.standing;
+        placed = placed_by_step(live_[i]->captured, at.step);
+        placed.core_frames = at.core_frames;
+        placed.standing = standing;
+      }
+      placed.core = begin + at.to_core;
+    }
+    for (std::size_t channel = 0; channel < made.lanes.size(); ++channel) {
+      for (const MadeStep::Link& link : made.lanes[channel]) {
+        step.links[channel].push_back({.clip = live_[link.clip],
+                                       .held = link.held,
+                                       .held_until = link.held_until ? live_[*link.held_until] : nullptr,
+                                       .cut = link.cut,
+                                       .place = link.place});
+      }
+    }
+    const std::deque<LiveLink>& body = step.links.front();
+    for (std::size_t i = 0; i + 1 < body.size(); ++i) {
+      if (body[i + 1].clip->cuts) continue;
+      JunctionCuts& cuts = body[i + 1].clip->cuts.emplace(JunctionCuts{.parts = {}, .tracks = body[i].cut});
+      cuts.parts.fill(body[i].cut);
+    }
+    return step;
   }
 
  private:
@@ -195,10 +256,27 @@ StepClips without_tail(StepClips clips, bool had_tail) {
   return clips;
 }
 
+std::size_t held_bytes(const MadeStep& made) noexcept {
+  std::size_t links = 0;
+  for (const auto& lane : made.lanes) links += lane.size();
+  return sizeof(MadeStep) + bytes_in(*made.frames) + made.clips.size() * sizeof(MadeStep::Placed) +
+         links * sizeof(MadeStep::Link);
+}
+
 LaneStep make_step(const ClipChain& chain, std::int64_t begin, const StepClips& clips, const StreamSetup& setup,
-                   double tempo) {
+                   double tempo, StepCache& cache) {
   const JunctionSettings& settings = setup.builder->settings();
-  StepWindow window(chain, begin, clips);
+  const StepWindow window(chain, begin, clips);
+  const auto with_clips = [&](const MadeStep& made) {
+    LaneStep step = window.step_of(made, begin);
+    step.clips = clips;
+    step.had_tail = !chain.empty();
+    return step;
+  };
+  const std::string key = window.key(begin, clips, setup);
+  if (!key.empty()) {
+    if (const std::shared_ptr<const MadeStep> made = cache.find(key)) return with_clips(*made);
+  }
   const Score score = window.compose(
       settings,
       {.fit = setup.fit.get(), .tempo = tempo, .most_frames = std::numeric_limits<std::int64_t>::max(), .author = {}});
@@ -208,27 +286,19 @@ LaneStep make_step(const ClipChain& chain, std::int64_t begin, const StepClips& 
                                   [](const Item& item) { return std::holds_alternative<ClipUse>(item.what); });
     return std::get<ClipUse>(use->what).clip != last.id;
   });
-  const std::int64_t end = clips.rests ? last.at.begin : differ ? score.frames : last.at.end;
+  const FrameRange frames{begin - window.base(), clips.rests ? last.at.begin : differ ? score.frames : last.at.end};
+  if (frames.size() > kMostMade) {
+    throw Error(ErrorCode::bad_input, fmt::format("these signs take {} frames at once, more than {}; ask for a lower "
+                                                  "rate, or leave out some of what belongs together",
+                                                  frames.size(), kMostMade));
+  }
   Renderer renderer(plan_of(score, window.clips()), settings);
-  Motion made;
-  renderer.render({begin - window.base(), end}, made);
-
-  window.take_places(score);
-  LaneStep step{.made = with_tracks(std::move(made), setup.builder->tracks()),
-                .begin = begin,
-                .links = window.links(score),
-                .clips = clips,
-                .had_tail = !chain.empty()};
-  for (const std::shared_ptr<LiveClip>& clip : window.live()) {
-    step.cores.emplace_back(clip, clip->placed.core - begin);
-  }
-  const std::deque<LiveLink>& body = step.links.front();
-  for (std::size_t i = 0; i + 1 < body.size(); ++i) {
-    if (body[i + 1].clip->cuts) continue;
-    JunctionCuts& cuts = body[i + 1].clip->cuts.emplace(JunctionCuts{.parts = {}, .tracks = body[i].cut});
-    cuts.parts.fill(body[i].cut);
-  }
-  return step;
+  Motion rendered;
+  renderer.render(frames, rendered);
+  auto made = std::make_shared<const MadeStep>(
+      window.made_of(score, begin, with_tracks(std::move(rendered), setup.builder->tracks())));
+  if (!key.empty()) cache.keep(key, made);
+  return with_clips(*made);
 }
 
 }  // namespace signweave

@@ -1,6 +1,7 @@
 #include "signweave/live/live_curves.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "signweave/nonmanual/gaze.h"
 #include "signweave/nonmanual/mouthing/viseme.h"
@@ -12,6 +13,10 @@ namespace {
 constexpr std::size_t kMostCurves = 256;
 
 }  // namespace
+
+std::int64_t frames_of(Milliseconds time, FrameRate rate) noexcept {
+  return std::max<std::int64_t>(1, std::llround(Seconds(time).count() * rate.hertz()));
+}
 
 void LiveCurves::add(AuthoredCurve curve) {
   if (curves_.size() >= kMostCurves) curves_.erase(curves_.begin());
@@ -26,6 +31,13 @@ void LiveCurves::set(std::vector<AuthoredCurve> curves) {
 
 void LiveCurves::cut(std::int64_t frame) {
   if (std::erase_if(curves_, [&](const AuthoredCurve& one) { return one.at.begin >= frame; }) > 0) renderer_.reset();
+}
+
+void LiveCurves::end_after(std::size_t place, std::int64_t frame, FrameRate rate) {
+  for (AuthoredCurve& one : curves_) {
+    if (one.last > place) one.at.end = std::min(one.at.end, frame + frames_of(one.curve.offset, rate));
+  }
+  renderer_.reset();
 }
 
 bool LiveCurves::cover(FrameRange frames) const noexcept {

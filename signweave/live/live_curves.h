@@ -23,6 +23,8 @@ class LiveCurves {
   void set(std::vector<AuthoredCurve> curves);
   /// Removes those that begin at `frame` or later.
   void cut(std::int64_t frame);
+  /// Lets those of later places than `place` fall from `frame` on.
+  void end_after(std::size_t place, std::int64_t frame, FrameRate rate);
   void clear() noexcept { set({}); }
 
   /// True if one of them is at one of these frames.
@@ -38,6 +40,9 @@ class LiveCurves {
   std::optional<CurveRenderer> renderer_;  ///< of curves_; none: not made yet
   Motion frames_;
 };
+
+/// At least one.
+std::int64_t frames_of(Milliseconds time, FrameRate rate) noexcept;
 
 /// The scalar tracks that authored movements may set: of the expressions, mouthings and gazes.
 std::vector<std::string> authored_tracks(const Expressions& expressions);

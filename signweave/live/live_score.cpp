@@ -60,8 +60,13 @@ void LiveScore::continue_from(const FrameRing& made) {
 bool LiveScore::grow() {
   if (queue_.has_next()) {
     const std::int64_t from = end();
-    sign_next();
-    while (queue_.goes_on()) sign_next();  // where a non-manual ends must be known
+    try {
+      sign_next();
+      while (queue_.goes_on()) sign_next();  // where a non-manual ends must be known
+    } catch (const Error&) {
+      author(from);
+      throw;
+    }
     author(from);
     return true;
   }
@@ -216,7 +221,7 @@ void LiveScore::leave_rest_at(std::int64_t next) {
 void LiveScore::add(const Utterance& utterance, std::int64_t next, const FrameRing& shown) {
   queue_.check(utterance, true);
   forget_places();
-  queue_.add(utterance);
+  queue_.add(utterance, let_go_on(utterance, next));
   if (!utterance.places.empty()) reopen(next, shown);
 }
 
@@ -319,6 +324,10 @@ bool LiveScore::finish_sign(std::int64_t next, const FrameRing& shown) {
   chain_.end_with(clip);
   chain_.replace_back(last);
   timeline_.replace(clip, last);
+  if (entry != entries_.end()) {
+    curves_.end_after(last_place.value_or(entry->last + queue_.forgotten()), last->placed.core_end(),
+                      setup_->header.rate);
+  }
   last_sign_.clip = std::move(last);
   end_with_last_sign();
   return true;

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <deque>
+#include <limits>
 #include <map>
 #include <memory>
 #include <optional>
@@ -51,6 +52,11 @@ class LiveScore {
   /// The score of the timeline, with the frame that is shown next; see ShownScore.
   std::optional<ShownScore> score(std::int64_t next, std::size_t most_clips) const;
   std::shared_ptr<const MotionSource> rest() const noexcept { return setup_ ? setup_->living : nullptr; }
+
+  /// The first frame that shows something else since this was called last; the last possible one if none does.
+  std::int64_t take_changed_from() noexcept {
+    return std::exchange(changed_from_, std::numeric_limits<std::int64_t>::max());
+  }
 
   /// The end of the known timeline.
   std::int64_t end() const noexcept { return timeline_.end(); }
@@ -109,6 +115,7 @@ class LiveScore {
   struct Authored {
     std::size_t number = 0;  ///< of the non-manual in the queue
     AuthoredCurve curve;
+    bool goes_on = false;  ///< its end is not known yet
   };
   /// The last signed clip; the rest may follow it.
   struct LastSign {
@@ -150,6 +157,7 @@ class LiveScore {
   // live_score_face.cpp
   void author(std::int64_t from);
   Score times_of_entries() const;
+  bool let_go_on(const Utterance& utterance, std::int64_t next);
   void show_authored(std::int64_t next);
   std::shared_ptr<const Motion> join(LiveClip& a, LiveClip& b);
   ClipPtr history_of(std::int64_t next, const FrameRing& shown) const;
@@ -186,6 +194,7 @@ class LiveScore {
   std::vector<Authored> authored_;         ///< of this utterance, or of this round
   std::vector<Authored> authored_before_;  ///< of the previous round
   LiveCurves curves_;                      ///< over the timeline's frames
+  std::int64_t changed_from_ = std::numeric_limits<std::int64_t>::max();
   Timeline timeline_;
   std::deque<PlayerEvent> events_;  ///< `frame` counts the timeline's frames
 };

@@ -152,11 +152,13 @@ LiveScore::StepPtr LiveScore::take_step(const StepClips& clips) {
   for (const auto* const all : {&clips.body, &clips.of_parts}) {
     for (const ClipPtr& clip : *all) {
       if (clips.rests) continue;
+      clip->key = key_of(clip->captured);
       setup_->builder->place_sign(*clip);
       setup_->builder->place_first(*clip);
     }
   }
-  auto step = std::make_shared<const LaneStep>(make_step(chain_, end(), clips, *setup_, options_.synthesis.tempo));
+  auto step = std::make_shared<const LaneStep>(
+      make_step(chain_, end(), clips, *setup_, options_.synthesis.tempo, cache_.steps()));
   chain_.add(step->links);
   timeline_.append({end(), std::min(chain_.core_end(), step->end())}, step->made, step->begin);
   return step;
@@ -257,7 +259,7 @@ void LiveScore::seek_in_step(std::size_t index, std::int64_t at, std::int64_t ne
     at = std::max(at, begin);
     entry.clip->cuts.reset();
     *step = make_step(chain_, next - (at - begin), without_tail(step->clips, step->had_tail), *setup_,
-                      options_.synthesis.tempo);
+                      options_.synthesis.tempo, cache_.steps());
     chain_.add(step->links);
     for (std::size_t i = first; i <= index; ++i) entries_[i].core = begin + step->to_core(entries_[i].clip);
   }

@@ -22,8 +22,11 @@ void LiveScore::author(std::int64_t from) {
   Score times;  // in the utterance's time
   for (std::size_t i = 0; i < queue_.non_manuals().size(); ++i) {
     NonManual one = queue_.non_manuals()[i];
-    const bool is_known = std::ranges::find(authored_, forgotten + i, &Authored::number) != authored_.end();
-    if (is_known || one.last >= queue_.next() || one.last < entries_.front().first) continue;
+    const auto known = std::ranges::find(authored_, forgotten + i, &Authored::number);
+    const bool goes_on = known != authored_.end() && known->goes_on;
+    if ((known != authored_.end() && !goes_on) || one.last >= queue_.next() || one.last < entries_.front().first) {
+      continue;
+    }
     if (times.clips.empty()) times = times_of_entries();
     one.first += queue_.forgotten();
     one.last += queue_.forgotten();
@@ -31,6 +34,13 @@ void LiveScore::author(std::int64_t from) {
     for (AuthoredCurve& curve : author_non_manuals({.places = {}, .holds = {}, .non_manuals = {one}}, times,
                                                    options_.synthesis.non_manuals, notices)) {
       const std::int64_t shift = entries_.back().clip->placed.core - entries_.back().core;
+      if (goes_on) {  // what was shown of it stays
+        known->curve.at.end = std::max(curve.at.end, from - shift + 1);
+        known->curve.last = curve.last;
+        known->goes_on = false;
+        show_authored(from);
+        break;
+      }
       curve.at.begin = std::max(curve.at.begin, from - shift);
       curve.at.end = std::max(curve.at.end, curve.at.begin + 1);
       authored_.push_back({.number = forgotten + i, .curve = curve});
@@ -44,6 +54,25 @@ void LiveScore::author(std::int64_t from) {
                          .text = notice.text});
     }
   }
+}
+
+/// Lets a movement that ends with the last place go on in an utterance that is appended, if it does not end before
+/// `next`. Returns false if there is one that does.
+bool LiveScore::let_go_on(const Utterance& utterance, std::int64_t next) {
+  const std::optional<std::size_t> number = queue_.continued(utterance);
+  if (!number) return true;
+  const auto known = std::ranges::find(authored_, *number, &Authored::number);
+  if (known == authored_.end()) return true;  // its places are not all signed yet
+  const FrameRate rate = setup_->header.rate;
+  const std::int64_t shift = entries_.back().clip->placed.core - entries_.back().core;
+  const Milliseconds falls = std::max(known->curve.curve.offset, known->curve.curve.head.offset);
+  const std::int64_t end = known->curve.at.end + shift - frames_of(falls, rate);
+  if (end <= next) return false;
+  known->goes_on = true;
+  known->curve.at.end += std::llround(kAfterLast.count() * rate.hertz());
+  show_authored(next);
+  changed_from_ = end;
+  return true;
 }
 
 /// The clips of the utterance, in its time.

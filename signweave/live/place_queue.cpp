@@ -18,7 +18,7 @@ bool has_parts(const Utterance& utterance) {
 }
 
 /// Parts, holds and non-manuals must accompany places of their utterance, and not too many.
-void check_ranges(const Utterance& utterance) {
+void check_ranges(const Utterance& utterance, bool follows) {
   const auto require = [&](std::size_t first, std::size_t last, bool at_once) {
     if (first > last || last >= utterance.places.size()) {
       throw Error(ErrorCode::bad_input, fmt::format("places {} to {} are not in an utterance of {}", first + 1,
@@ -40,7 +40,11 @@ void check_ranges(const Utterance& utterance) {
     }
     require(first, last, true);
   }
-  for (const HandHold& held : utterance.holds) require(held.from + 1, held.until, false);
+  for (const HandHold& held : utterance.holds) {
+    require(held.from == kPlaceBefore ? 0 : held.from + 1, held.until, false);
+    if (held.from != kPlaceBefore || follows) continue;
+    throw Error(ErrorCode::bad_input, "nothing to hold: no place is before it; begin with the sign to be held");
+  }
   for (const NonManual& one : utterance.non_manuals) require(one.first, one.last, true);
 }
 
@@ -70,7 +74,7 @@ void PlaceQueue::check(const Utterance& utterance, bool after_those_waiting) con
   cache_.check(contents, utterance.places);
   if (has_parts(utterance)) part_choices(*contents, utterance, Side::right);
   check_non_manuals(utterance, options_.synthesis.non_manuals);
-  check_ranges(utterance);
+  check_ranges(utterance, after_those_waiting && !places_.empty());
 }
 
 void PlaceQueue::replace(const Utterance& utterance) {
@@ -87,7 +91,29 @@ void PlaceQueue::replace(const Utterance& utterance) {
   add(utterance);
 }
 
-void PlaceQueue::add(const Utterance& utterance) {
+/// The same expression or gaze until the place before, or null.
+NonManual* PlaceQueue::continued_by(const NonManual& one) noexcept {
+  if (one.kind == NonManual::Kind::mouthing || one.begin != Milliseconds(0)) return nullptr;
+  const auto at = std::ranges::find_if(non_manuals_, [&](const NonManual& before) {
+    return before.kind == one.kind && before.what == one.what && before.last + 1 == one.first &&
+           before.end == Milliseconds(0);
+  });
+  return at == non_manuals_.end() ? nullptr : &*at;
+}
+
+std::optional<std::size_t> PlaceQueue::continued(const Utterance& utterance) {
+  if (utterance.places.empty() || places_.empty()) return std::nullopt;
+  for (NonManual one : utterance.non_manuals) {
+    if (one.first > 0) break;
+    one.first += places_.size();
+    if (const NonManual* const before = continued_by(one)) {
+      return forgotten_non_manuals_ + static_cast<std::size_t>(before - non_manuals_.data());
+    }
+  }
+  return std::nullopt;
+}
+
+void PlaceQueue::add(const Utterance& utterance, bool can_go_on) {
   if (utterance.places.empty()) return;
   const std::size_t first = places_.size();
   Side usual = options_.synthesis.handedness.value_or(Side::right);
@@ -108,7 +134,7 @@ void PlaceQueue::add(const Utterance& utterance) {
   }
   for (const std::size_t border : clip_borders(utterance)) borders_.insert(first + border);
   for (ChannelHold held : channel_holds(utterance, usual)) {
-    held.from += first;
+    held.from = held.from == kPlaceBefore ? first - 1 : held.from + first;
     held.until += first;
     std::fill(tied_.begin() + static_cast<std::ptrdiff_t>(held.from) + 1,
               tied_.begin() + static_cast<std::ptrdiff_t>(held.until) + 1, true);
@@ -117,7 +143,13 @@ void PlaceQueue::add(const Utterance& utterance) {
   for (NonManual one : utterance.non_manuals) {
     one.first += first;
     one.last += first;
-    non_manuals_.push_back(std::move(one));
+    NonManual* const before = one.first == first && can_go_on ? continued_by(one) : nullptr;
+    if (before == nullptr) {
+      non_manuals_.push_back(std::move(one));
+    } else {
+      before->last = one.last;
+      before->end = one.end;
+    }
   }
 }
 

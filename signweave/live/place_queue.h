@@ -34,8 +34,11 @@ class PlaceQueue {
   void check(const Utterance& utterance, bool after_those_waiting) const;
   /// Replaces all places by these, which must be checked.
   void replace(const Utterance& utterance);
-  /// Appends these places, which must be checked.
-  void add(const Utterance& utterance);
+  /// Appends these places, which must be checked. An expression or a gaze that ends with the last place goes on in the
+  /// same one of the first new place if `can_go_on`.
+  void add(const Utterance& utterance, bool can_go_on = true);
+  /// The number of the non-manual that would go on.
+  std::optional<std::size_t> continued(const Utterance& utterance);
   void set_loop(bool loop) noexcept { loop_ = loop; }
   /// Drops finished places if there are many. Returns how many; the numbers of all others decrease by it.
   std::size_t forget() noexcept;
@@ -94,6 +97,7 @@ class PlaceQueue {
 
  private:
   bool decided_well(std::size_t place) const noexcept;
+  NonManual* continued_by(const NonManual& one) noexcept;
 
   SharedSigningCache& cache_;
   OpenRecordings& open_;

@@ -59,7 +59,7 @@ struct Player::State {
   }
   /// Truncates the ring after the timeline was changed.
   void changed() {
-    ring.cut(std::min(ring.end(), score.end()));
+    ring.cut(std::min({ring.end(), score.end(), score.take_changed_from()}));
     if (ring.end() == next) part = 0;
   }
 };

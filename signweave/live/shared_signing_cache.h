@@ -17,8 +17,9 @@
 #include "signweave/choose/concatenate.h"
 #include "signweave/choose/durations.h"
 #include "signweave/database/database.h"
+#include "signweave/live/made_cache.h"
+#include "signweave/live/made_step.h"
 #include "signweave/live/rest_pose.h"
-#include "signweave/live/transition_cache.h"
 #include "signweave/retarget/body_mapping.h"
 
 namespace signweave {
@@ -36,6 +37,7 @@ struct KnownRest {
 /// it. It must outlive its players, and the database must outlive it.
 class SharedSigningCache {
  public:
+  /// Caches transitions of up to `cached_bytes`, and steps of twice as much: streams hold those that they sign anyway.
   explicit SharedSigningCache(const Database& database, std::size_t cached_bytes = kCachedBytes);
   static constexpr std::size_t kCachedBytes = std::size_t{256} << 20;
 
@@ -76,6 +78,8 @@ class SharedSigningCache {
   std::uint64_t new_seed() noexcept { return ++seeds_; }
   /// The cached transitions.
   TransitionCache& transitions() noexcept { return transitions_; }
+  /// The cached steps of streams whose channels differ.
+  StepCache& steps() noexcept { return steps_; }
 
  private:
   struct Known {
@@ -99,6 +103,7 @@ class SharedSigningCache {
   std::mutex mutex_;
   Known known_;
   TransitionCache transitions_;
+  StepCache steps_;
   std::atomic<std::uint64_t> seeds_ = 0;
 };
 

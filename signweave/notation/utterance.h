@@ -92,10 +92,13 @@ inline Place place_of(GlossRef gloss) {
 inline constexpr Milliseconds kComma{350};
 inline constexpr Milliseconds kFullStop{800};
 
+/// Stands for the last place before an utterance that is appended to another one.
+inline constexpr std::size_t kPlaceBefore = static_cast<std::size_t>(-1);
+
 /// A hand that keeps its pose at the end of a place's stroke.
 struct HandHold {
   BodyPart hand = BodyPart::weak;  ///< dominant, weak, right or left
-  std::size_t from = 0;            ///< the place, from 0
+  std::size_t from = 0;            ///< the place, from 0; kPlaceBefore only if UtteranceWords::follows
   std::size_t until = 0;           ///< the place whose stroke's end ends the hold; after `from`
   friend bool operator==(const HandHold&, const HandHold&) = default;
 };
@@ -190,6 +193,8 @@ struct UtteranceWords {
   std::function<bool(std::string_view)> is_gloss;
   /// Whether an expression exists. Empty: true.
   std::function<bool(std::string_view)> is_expression;
+  /// The text follows other places, so a hand can be held in its first one.
+  bool follows = false;
 };
 
 /// The content of a text that may have faults.
@@ -212,7 +217,8 @@ UtteranceText read_utterance(std::string_view text, const UtteranceWords& words 
 Utterance parse_utterance(std::string_view text, const UtteranceWords& words = {});
 
 /// Returns text that parses to the same utterance, whatever glosses are known: names with brackets are quoted. Requires
-/// names that are not blank, and places, parts and times as this file describes them.
+/// names that are not blank, and places, parts and times as this file describes them. Leaves out what is held from before
+/// the utterance.
 std::string to_string(const Utterance& utterance);
 std::string to_string(const GlossRef& gloss);
 

@@ -211,7 +211,9 @@ void UtterancePrinter::close(std::size_t place) {
 std::string UtterancePrinter::print() {
   plan_brackets();
   plan_scopes();
-  for (const HandHold& hold : utterance_.holds) layout_[hold.from].holds.push_back(&hold);
+  for (const HandHold& hold : utterance_.holds) {
+    if (hold.from != kPlaceBefore) layout_[hold.from].holds.push_back(&hold);
+  }
   for (std::size_t i = 0; i < layout_.size(); ++i) {
     const Place& place = utterance_.places[i];
     if (i > 0) text_ += ' ';

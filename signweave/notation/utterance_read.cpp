@@ -89,14 +89,16 @@ void UtteranceReader::add_part(std::size_t place, PlacePart part, WordSpan at) {
 }
 
 bool UtteranceReader::add_hold(HandHold hold, WordSpan at) {
-  held_.resize(std::max(held_.size(), hold.from + 1));
+  const std::size_t begin = hold.from + 1;  // 0: before the utterance
+  static_assert(kPlaceBefore + 1 == 0);
+  held_.resize(std::max(held_.size(), begin + 1));
   const auto hand = static_cast<std::uint8_t>(1U << static_cast<unsigned>(hold.hand));
-  if ((held_[hold.from] & hand) != 0) {
+  if ((held_[begin] & hand) != 0) {
     cursor_.report(repeated_part, at,
                    fmt::format("'{}' is held twice from the same place; keep one", name_of(hold.hand)));
     return false;
   }
-  held_[hold.from] |= hand;
+  held_[begin] |= hand;
   out_.utterance.holds.push_back(hold);
   return true;
 }
@@ -270,8 +272,9 @@ void UtteranceReader::end_bracket() {
   for (GroupPart& one : group.parts) {
     if (!one.hold) {
       add_part(range.first, {.part = one.part, .signs = std::move(one.signs), .places = count}, one.at);
-    } else if (group.first > 0) {
-      add_hold({.hand = one.part, .from = group.first - 1, .until = range.last}, one.at);
+    } else if (group.first > 0 || cursor_.words().follows) {
+      const std::size_t before = group.first > 0 ? group.first - 1 : kPlaceBefore;
+      add_hold({.hand = one.part, .from = before, .until = range.last}, one.at);
     } else if (cursor_.fault_count() == 0) {
       cursor_.report(nothing_to_hold, *one.hold,
                      "nothing to hold: no place is before it; begin with the sign to be held");
@@ -367,7 +370,7 @@ void UtteranceReader::finish_groups() {
 }
 
 void UtteranceReader::sort() {
-  std::ranges::stable_sort(out_.utterance.holds, {}, &HandHold::from);
+  std::ranges::stable_sort(out_.utterance.holds, {}, [](const HandHold& one) { return one.from + 1; });
   std::ranges::stable_sort(out_.utterance.non_manuals, [](const NonManual& a, const NonManual& b) {
     return a.first != b.first ? a.first < b.first : a.last > b.last;
   });

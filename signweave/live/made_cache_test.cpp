@@ -1,4 +1,4 @@
-#include "signweave/live/transition_cache.h"
+#include "signweave/live/made_cache.h"
 
 #include <gtest/gtest.h>
 

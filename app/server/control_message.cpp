@@ -114,6 +114,12 @@ constexpr Field kFields[] = {
      [](ControlMessage& m, const std::string& n, const nlohmann::json& v) { m.open.player.loop = truth_of(n, v); }},
     {Control::open, "recording", false,
      [](ControlMessage& m, const std::string& n, const nlohmann::json& v) { m.open.player.recording = text_of(n, v); }},
+    {Control::open, "face", false,
+     [](ControlMessage& m, const std::string& n, const nlohmann::json& v) { m.open.player.face = truth_of(n, v); }},
+    {Control::open, "handedness", false,
+     [](ControlMessage& m, const std::string& n, const nlohmann::json& v) {
+       m.open.player.synthesis.handedness = one_of<2>(n, v, {"left", "right"}) == 0 ? Side::left : Side::right;
+     }},
     {Control::open, "character", false,
      [](ControlMessage& m, const std::string& n, const nlohmann::json& v) { m.open.character = text_of(n, v); }},
     {Control::open, "transition", false,

@@ -2,7 +2,10 @@
 #include <cmath>
 #include <utility>
 
+#include <fmt/format.h>
+
 #include "signweave/choose/non_manuals.h"
+#include "signweave/core/text.h"
 #include "signweave/live/live_score.h"
 
 // Authored movements of the face, the gaze and the head. They are shown over the frames of the timeline when these are
@@ -40,6 +43,16 @@ void LiveScore::author(std::int64_t from) {
         known->goes_on = false;
         show_authored(from);
         break;
+      }
+      const std::vector<std::string> tracks = tracks_of(curve.curve);
+      const auto is_there = [&](const std::string& track) {
+        return std::ranges::find(setup_->header.tracks, track) != setup_->header.tracks.end();
+      };
+      if (!tracks.empty() && std::ranges::none_of(tracks, is_there)) {
+        notices.push_back({{},
+                           fmt::format("'{}' is not seen: the stream has no tracks for the face; open it with "
+                                       "\"face\": true",
+                                       printable(one.what))});
       }
       curve.at.begin = std::max(curve.at.begin, from - shift);
       curve.at.end = std::max(curve.at.end, curve.at.begin + 1);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -139,9 +140,54 @@ void fields(Visit& visit, const ReportJunction& one) {
         given_if(!junction.chosen.empty(), junction.chosen));
 }
 
+/// A clip, a transition or a hold in a lane. Frames are those of the new motion.
+struct ReportLaneItem {
+  enum class Kind : std::uint8_t { clip, transition, hold };
+  Kind kind = Kind::clip;
+  FrameRange frames;
+  std::size_t clip = 0;           ///< that is shown or held; of a transition the one before it
+  std::size_t to_clip = 0;        ///< of a transition
+  std::string method;             ///< of a transition
+  std::optional<HandPlace> hand;  ///< of a clip in the lane of an arm, if its hand keeps its place
+};
+template <class Visit>
+void fields(Visit& visit, const ReportLaneItem& item) {
+  const bool joins = item.kind == ReportLaneItem::Kind::transition;
+  const HandPlace hand = item.hand.value_or(HandPlace{});
+  constexpr std::array<std::string_view, 3> kKinds = {"clip", "transition", "hold"};
+  visit.type("ReportLaneItem");
+  visit(AnswerField{.name = "kind", .one_of = {kKinds.begin(), kKinds.end()}},
+        kKinds.at(static_cast<std::size_t>(item.kind)));
+  visit(AnswerField{.name = "frames"}, item.frames);
+  visit(AnswerField{.name = "clip", .help = "of a clip, and of a hold: the one whose pose is held", .minimum = 0},
+        given_if(!joins, item.clip));
+  visit(AnswerField{.name = "from_clip", .help = "of a transition", .minimum = 0}, given_if(joins, item.clip));
+  visit(AnswerField{.name = "to_clip", .help = "of a transition", .minimum = 0}, given_if(joins, item.to_clip));
+  visit(AnswerField{.name = "method", .help = "of a transition"}, given_if(joins, item.method));
+  visit(AnswerField{.name = "hand_kept_in", .help = "of an arm: where its hand keeps the place that it had"},
+        given_if(item.hand.has_value(), name_of(hand.kept_in)));
+  visit(AnswerField{.name = "hand_moved_mm", .help = "of an arm: how far the palm was moved to it"},
+        given_if(item.hand.has_value(), hand.moved_mm));
+}
+
+/// All that a channel shows, without holes.
+struct ReportLane {
+  Channel channel = Channel::body;
+  std::vector<ReportLaneItem> items;
+};
+template <class Visit>
+void fields(Visit& visit, const ReportLane& lane) {
+  visit.type("ReportLane");
+  visit(AnswerField{.name = "channel", .one_of = {"left", "right", "tracks", "left_fingers", "right_fingers", "head"}},
+        name_of(lane.channel));
+  visit(AnswerField{.name = "items", .help = "in order of time, without holes"}, lane.items);
+}
+
 /// An authored movement of face, gaze or head.
 struct ReportMovement {
   std::string name;
+  std::string_view kind;                   ///< "expression", "gaze" or "mouthing"
+  std::vector<std::string_view> channels;  ///< the non-manual channels that it moves; not empty
   std::size_t first = 0;
   std::size_t last = 0;
   FrameRange frames;
@@ -150,6 +196,8 @@ template <class Visit>
 void fields(Visit& visit, const ReportMovement& one) {
   visit.type("ReportMovement");
   visit(AnswerField{.name = "name", .help = "of an expression or a gaze, or the mouthed text"}, one.name);
+  visit(AnswerField{.name = "kind", .one_of = {"expression", "gaze", "mouthing"}}, one.kind);
+  visit(AnswerField{.name = "channels", .help = "that it moves: head, gaze, brows, lids, mouth"}, one.channels);
   visit(AnswerField{.name = "first_place", .minimum = 0}, one.first);
   visit(AnswerField{.name = "last_place", .minimum = 0}, one.last);
   visit(AnswerField{.name = "frames"}, one.frames);
@@ -162,6 +210,7 @@ struct SynthesisReport {
   std::vector<ReportSign> signs;
   std::vector<ReportClip> clips;
   std::vector<ReportJunction> junctions;
+  std::vector<ReportLane> lanes;  ///< those that differ from the body
   std::vector<ReportMovement> movements;
 };
 template <class Visit>
@@ -172,6 +221,8 @@ void report_fields(Visit& visit, const SynthesisReport& report) {
   visit(AnswerField{.name = "clips"}, report.clips);
   visit(AnswerField{.name = "stretches", .help = "the former name of clips"}, report.clips);
   visit(AnswerField{.name = "junctions"}, report.junctions);
+  visit(AnswerField{.name = "lanes", .help = "of channels that show something else than the body; missing: none"},
+        given_if(!report.lanes.empty(), report.lanes));
   visit(AnswerField{.name = "movements", .help = "authored ones of face, gaze and head; missing: none"},
         given_if(!report.movements.empty(), report.movements));
 }

@@ -510,9 +510,36 @@ export interface components {
       /** @description what `junctions` says of it */
       readonly chosen?: components['schemas']['ChosenJunction']
     }
+    readonly ReportLaneItem: {
+      /** @enum {string} */
+      readonly kind: 'clip' | 'transition' | 'hold'
+      readonly frames: components['schemas']['Frames']
+      /** @description of a clip, and of a hold: the one whose pose is held */
+      readonly clip?: number
+      /** @description of a transition */
+      readonly from_clip?: number
+      /** @description of a transition */
+      readonly to_clip?: number
+      /** @description of a transition */
+      readonly method?: string
+      /** @description of an arm: where its hand keeps the place that it had */
+      readonly hand_kept_in?: string
+      /** @description of an arm: how far the palm was moved to it */
+      readonly hand_moved_mm?: number
+    }
+    readonly ReportLane: {
+      /** @enum {string} */
+      readonly channel: 'left' | 'right' | 'tracks' | 'left_fingers' | 'right_fingers' | 'head'
+      /** @description in order of time, without holes */
+      readonly items: readonly components['schemas']['ReportLaneItem'][]
+    }
     readonly ReportMovement: {
       /** @description of an expression or a gaze, or the mouthed text */
       readonly name: string
+      /** @enum {string} */
+      readonly kind: 'expression' | 'gaze' | 'mouthing'
+      /** @description that it moves: head, gaze, brows, lids, mouth */
+      readonly channels: readonly string[]
       readonly first_place: number
       readonly last_place: number
       readonly frames: components['schemas']['Frames']
@@ -562,6 +589,8 @@ export interface components {
       /** @description the former name of clips */
       readonly stretches: readonly components['schemas']['ReportClip'][]
       readonly junctions: readonly components['schemas']['ReportJunction'][]
+      /** @description of channels that show something else than the body; missing: none */
+      readonly lanes?: readonly components['schemas']['ReportLane'][]
       /** @description authored ones of face, gaze and head; missing: none */
       readonly movements?: readonly components['schemas']['ReportMovement'][]
       readonly timings: components['schemas']['Timings']
@@ -1211,6 +1240,8 @@ export type ReportClip = components['schemas']['ReportClip']
 export type ReportCut = components['schemas']['ReportCut']
 export type ChosenJunction = components['schemas']['ChosenJunction']
 export type ReportJunction = components['schemas']['ReportJunction']
+export type ReportLaneItem = components['schemas']['ReportLaneItem']
+export type ReportLane = components['schemas']['ReportLane']
 export type ReportMovement = components['schemas']['ReportMovement']
 export type Timings = components['schemas']['Timings']
 export type CandidateJoin = components['schemas']['CandidateJoin']

@@ -1,4 +1,4 @@
-/** The content of an ELAN file, as the timeline draws it. Times are annotation time in ms. */
+/** Annotation as the timeline draws it: of an ELAN file, or of a result. Times are annotation time in ms. */
 export interface Annotation {
   readonly begin: number
   readonly end: number
@@ -7,7 +7,13 @@ export interface Annotation {
   readonly state?: 'open' | 'accepted' | 'unseen' | 'rejected'
   /** Whether keys and buttons act on this annotation. */
   readonly current?: boolean
+  /** What a lane shows here, which determines how it is drawn; without it, that follows from the tier and the label. */
+  readonly kind?: LaneKind
+  /** Where it comes from, in one line. */
+  readonly detail?: string
 }
+/** `shared`: a clip that the whole body shows as well; `movement`: authored. */
+export type LaneKind = 'clip' | 'shared' | 'transition' | 'hold' | 'movement'
 export interface Tier {
   readonly name: string
   /** Name of the parent tier, if any. */

@@ -98,10 +98,6 @@ export class Api {
   async annotation(database: string, recording: string): Promise<string> {
     return decoded(await (await this.call(path('databases', database, 'recordings', recording, 'annotation'))).arrayBuffer())
   }
-  /** The annotation of a result, as EAF: `call` is `sign` or `edit`, `body` its parameters. */
-  async madeAnnotation(database: string, call: 'sign' | 'edit', body: object): Promise<string> {
-    return (await this.post(path('databases', database, call), { ...body, format: 'eaf' })).text()
-  }
   /** Frames of a recording, in ms of annotation time, in the joints of a character if one is named; resolves when all have arrived. */
   async motion(
     database: string,

@@ -1,6 +1,6 @@
 import { joinTexts } from './joins'
 import { isPlain, kHow, type Place, type Project } from './project'
-import { textOf } from './utterance'
+import { utteranceOf } from './utterance'
 
 /** The parameters of `POST …/sign`. */
 export interface SignBody {
@@ -14,10 +14,11 @@ export interface SignBody {
 }
 
 /** Returns the call that signs a project; the server's defaults are left out. */
-export function bodyOf({ places, how }: Project): SignBody {
+export function bodyOf(project: Project): SignBody {
+  const { places, how } = project
   const junctions = joinTexts(places)
   return {
-    utterance: textOf(places),
+    utterance: utteranceOf(project),
     ...(how.transition !== kHow.transition && { transition: how.transition }),
     ...(how.duration !== kHow.duration && { duration: how.duration }),
     ...(how.tempo !== kHow.tempo && { tempo: how.tempo }),
@@ -37,7 +38,8 @@ export function byMethod(project: Project, method: string): Project {
   return { ...project, how: { ...project.how, transition: method }, places: project.places.map(without) }
 }
 
-/** Returns the project with the token of each sign fixed to that in `tokens`; 0 leaves it open. */
+/** Returns the project with the token of each sign fixed to that in `tokens`; 0 leaves it open. A text keeps the tokens that it names. */
 export function pinned(project: Project, tokens: readonly number[]): Project {
+  if (project.text !== undefined) return project
   return { ...project, places: project.places.map((place, k) => (place.kind === 'sign' && place.token === 0 ? { ...place, token: tokens[k] ?? 0 } : place)) }
 }

@@ -79,3 +79,9 @@ export function wordAt(text: string, caret: number): TypedWord {
       .replace(/(?<=.)[#@][\d.]*$/, ''),
   }
 }
+
+/** Whether a bracket or a brace is open before the caret: what it holds is not finished. */
+export function isInBrackets(text: string, caret: number): boolean {
+  const before = text.slice(0, caret).replace(/"[^"]*("|$)/g, '')
+  return before.split(/[[{]/).length > before.split(/[\]}]/).length
+}

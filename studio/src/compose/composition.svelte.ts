@@ -4,7 +4,7 @@ import { begun, did, redone, undone, type History } from './history'
 import { duplicated, inserted, kEmpty, moved, removed, sameProject, withPlaces, type Place, type Project } from './project'
 import { Newest } from './newest'
 import { projectOf, stateOf } from './state'
-import { textOf, type ReadText } from './utterance'
+import { utteranceOf, type Reading, type ReadText } from './utterance'
 
 /** The subject of the side panel: a place, the junction before a place (by the place's id), or the whole project. */
 export type Selected = { readonly kind: 'place' | 'junction'; readonly id: number } | { readonly kind: 'all' }
@@ -72,7 +72,7 @@ export class Composition {
     this.following = true
     const { utterance = '' } = state
     const outcome = await this.reading.run(
-      async (signal) => (utterance === textOf(this.project.places) ? this.project.places : (await this.read(utterance, signal)).places),
+      async (signal) => (utterance === utteranceOf(this.project) ? this.project : await this.read(utterance, signal)),
       () => this.project,
     )
     if (outcome.kind === 'overtaken') return []
@@ -122,26 +122,33 @@ export class Composition {
     this.settle()
   }
 
+  /** Whether places can be changed one by one; otherwise only their text and their junctions can. */
+  get byPlace(): boolean {
+    return this.project.text === undefined
+  }
   /** Replaces the places by those read from a text. */
-  type(places: readonly Place[]): void {
-    const next = withPlaces(this.project, carried(this.project.places, places))
+  type({ places, text }: Pick<Reading, 'places' | 'text'>): void {
+    const next = { ...withPlaces(this.project, carried(this.project.places, places)), ...(text !== undefined && { text }) }
     if (!sameProject(next, this.project)) this.change(next, 'text')
   }
   insert(at: number, ...places: readonly Place[]): void {
+    if (!this.byPlace) return
     this.change(inserted(this.project, at, ...places))
     this.selected = { kind: 'place', id: places[places.length - 1].id }
   }
   /** Removes a place and selects the one that takes its position. */
   remove(at: number): void {
+    if (!this.byPlace) return
     this.change(removed(this.project, at))
     const { places } = this.project
     const next = places[Math.min(at, places.length - 1)]
     this.selected = next ? { kind: 'place', id: next.id } : { kind: 'all' }
   }
   move(from: number, to: number): void {
-    this.change(moved(this.project, from, to))
+    if (this.byPlace) this.change(moved(this.project, from, to))
   }
   duplicate(at: number): void {
+    if (!this.byPlace) return
     this.change(duplicated(this.project, at))
     this.selected = { kind: 'place', id: this.project.places[at + 1].id }
   }

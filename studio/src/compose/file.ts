@@ -1,10 +1,10 @@
 import { isDuration, isMethod, isTempo } from './joins'
-import { kAligns, kHow, kMostPlaces, kPauses, piecePlace, signPlace, withPlaces, type How, type Join, type Pause, type Place, type Project } from './project'
+import { kAligns, kHow, kMostPlaces, kPauses, piecePlace, signPlace, type How, type Join, type Pause, type Place, type Project } from './project'
 import { isRate } from './state'
 import { canBeTyped } from './utterance'
 
-/** The version of the files that this studio writes. */
-const kVersion = 1
+/** The newest version of the files that this studio reads and writes; version 2 has texts with parts. */
+const kVersion = 2
 const kName = 'signweave compose'
 
 /** The faults of a project file, named by the key of their message; `detail` gives the position or the field. */
@@ -19,14 +19,16 @@ export class FileFault extends Error {
 }
 
 /** Writes a project as a file, formatted for people to read. */
-export function fileOf({ places, how, original }: Project, database: string): string {
+export function fileOf({ places, text, how, original }: Project, database: string): string {
   return (
     JSON.stringify(
       {
         project: kName,
-        version: kVersion,
+        // Studios of version 1 would sign the places alone.
+        version: text === undefined ? 1 : kVersion,
         database,
         original,
+        utterance: text,
         settings: { transition: how.transition || undefined, duration: how.duration, tempo: how.tempo, align: how.align, rate: how.rate || undefined },
         places: places.map((place, k) => placeRow(k === 0 ? bare(place) : place)),
       },
@@ -64,8 +66,8 @@ export function readFile(text: string): FileRead {
   }
   if (!isRecord(given) || given.project !== kName) throw new FileFault('notProject')
   if (typeof given.version === 'number' && given.version > kVersion) throw new FileFault('newerVersion', String(given.version))
-  if (given.version !== kVersion) throw new FileFault('badValue', 'version')
-  const whole = fields(given, '', ['project', 'version', 'database', 'original', 'settings', 'places'])
+  if (given.version !== 1 && given.version !== 2) throw new FileFault('badValue', 'version')
+  const whole = fields(given, '', ['project', 'version', 'database', 'original', 'settings', 'places', ...(given.version > 1 ? ['utterance'] : [])])
   const settings = whole.settings === undefined ? {} : recordAt(whole.settings, 'settings')
   const places = whole.places
   if (!Array.isArray(places)) throw new FileFault('badValue', 'places')
@@ -75,7 +77,11 @@ export function readFile(text: string): FileRead {
     how: howOf(fields(settings, 'settings.', ['transition', 'duration', 'tempo', 'align', 'rate'])),
     original: optional(whole.original, 'original', isText),
   }
-  return { project: withPlaces(project, places.map(readPlace)), database: optional(whole.database, 'database', isText) }
+  const typed = optional(whole.utterance, 'utterance', isText)
+  return {
+    project: { ...project, places: places.map(readPlace), ...(typed !== undefined && { text: typed }) },
+    database: optional(whole.database, 'database', isText),
+  }
 }
 
 function howOf({ transition, duration, tempo, align, rate }: Record<string, unknown>): How {

@@ -1,10 +1,11 @@
 import { expect, it } from 'vitest'
+import { documentOf } from '../annotation/made_document'
 import type { Candidate } from '../api/schema'
 import { joinAnswer, junctionAnswer, synthesisAnswer } from '../api/test_answers'
 import type { ExplainedSynthesis } from '../api/types'
+import { en } from '../text/en'
 import { candidatesOf, chosenTokens } from './candidates'
 import { Known, layoutOf } from './layout'
-import { documentOf } from './made_document'
 import { piecePlace, signPlace } from './project'
 import { signs } from './test_places'
 
@@ -80,6 +81,12 @@ it('knows the positions of places that have moved since, but not their junctions
   expect([known.at(0), known.at(2.7), known.at(99)]).toEqual([a, c, undefined])
 })
 
+it('leaves out the signs of single channels', () => {
+  const left = { ...sign('X', 0, 9, 100, 8000, 's', 0), channel: 'left' as const }
+  const clip = { ...clipOf(9, 0, 's', 10, 800), channel: 'left' as const }
+  expect(layoutOf(kPlaces, { ...kReport, signs: [left, ...kReport.signs], clips: [clip, ...kReport.clips] })).toEqual(layoutOf(kPlaces, kReport))
+})
+
 it('returns nothing for places that do not match the report', () => {
   expect(layoutOf(signs('A', 'B'), kReport)).toBeUndefined()
   expect(layoutOf(signs('A', 'B', 'C', 'D', 'E', 'F'), kReport)).toBeUndefined()
@@ -99,6 +106,7 @@ it('builds the annotation of a result like its EAF', () => {
   expect(tiers[4].annotations[0].label).toBe('clip 0 -> 1: gap 450 ms: A -> B (m_i 1, m_j 2, p 3)')
   expect(tiers[1].annotations[1]).toEqual({ begin: 100, end: 900, label: 'Stroke' })
   const other = documentOf(kReport, {
+    ...en,
     preparation: 'P',
     stroke: 'S',
     retraction: 'R',

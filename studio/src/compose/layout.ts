@@ -53,7 +53,9 @@ export class Known {
 
 /** Returns the positions of an utterance's places from the report of its result; undefined if the places do not match the report. */
 export function layoutOf(places: readonly Place[], report: Synthesis): PlaceLayout | undefined {
-  const { signs, clips, junctions, frames_per_second: rate } = report
+  const { junctions, frames_per_second: rate } = report
+  const signs = report.signs.filter(({ channel }) => channel === undefined),
+    clips = report.clips.filter(({ channel }) => channel === undefined)
   if (signs.some(({ place }) => place >= places.length)) return undefined
   const layout: PlacePosition[] = []
   for (const [place, { kind }] of places.entries()) {

@@ -1,20 +1,21 @@
 import type { Synthesis } from '../api/schema'
 import type { Api } from '../api/client'
 import type { AnnotationDocument } from '../annotation/document'
+import { documentOf } from '../annotation/made_document'
 import { correspondingTime, stepsOfSigns, type Steps } from '../motion/in_step'
 import { MadeSource } from '../motion/made_source'
 import { RecordingSource } from '../motion/recording_source'
 import type { Declarations } from '../motion/declarations'
 import type { MotionSource } from '../motion/source'
 import { Opening } from '../player/opening'
+import { en, type Text } from '../text/en'
 import type { Showing, Strand } from '../viewer/showing'
 import { Transport, type Loop } from '../viewer/transport'
 import { bodyOf } from './body'
 import { layoutOf, type PlaceLayout } from './layout'
-import { documentOf, kEafLabels, type MadeLabels } from './made_document'
 import { firstChange, type Project } from './project'
 import { mainSigns } from './start'
-import { textOf } from './utterance'
+import { utteranceOf } from './utterance'
 
 const kProgressMs = 200
 const kNothing: AnnotationDocument = { tiers: [] }
@@ -78,11 +79,11 @@ export class Making implements Showing {
   private closed = false
   private lastProgress = 0
 
-  /** `labels` returns the labels of its parts. */
+  /** `labels` returns the labels of the result's parts. */
   constructor(
     private readonly api: Api,
     private readonly database: string,
-    private readonly labels: () => MadeLabels = () => kEafLabels,
+    private readonly labels: () => Text = () => en,
   ) {}
 
   get complete(): boolean {
@@ -283,7 +284,7 @@ export class Making implements Showing {
 }
 
 /** Returns the title of a project on the screen and as a file: its text, shortened. */
-export function titleOf({ places }: Project, most = 60): string {
-  const text = textOf(places.slice(0, most))
+export function titleOf(project: Project, most = 60): string {
+  const text = utteranceOf({ ...project, places: project.places.slice(0, most) })
   return text.length > most ? `${text.slice(0, most).trimEnd()}…` : text
 }

@@ -48,6 +48,11 @@ export interface How {
 /** Something to be signed. Immutable, so that every state of it can be stored. */
 export interface Project {
   readonly places: readonly Place[]
+  /**
+   * The utterance as typed, if it gives a part of the signer something of its own. It is then what is signed, and edited as text only: `places` are those of
+   * the whole body in it, with their joins.
+   */
+  readonly text?: string
   readonly how: How
   /** The recording that it was made from. */
   readonly original?: string
@@ -69,8 +74,10 @@ export function piecePlace(recording: string, from: number, to: number, pause: P
   return { kind: 'piece', id: ++ids, recording, from, to, pause, join }
 }
 
+/** Replaces the places; those of the new project are all that is signed. */
 export function withPlaces(project: Project, places: readonly Place[]): Project {
-  return { ...project, places }
+  const { text: _, ...rest } = project
+  return { ...rest, places }
 }
 export function inserted(project: Project, at: number, ...more: readonly Place[]): Project {
   const { places } = project
@@ -110,10 +117,11 @@ export function withPause(project: Project, at: number, pause: Pause): Project {
 }
 /** Changes settings of the junction before a place; undefined resets to the default. */
 export function withJoin(project: Project, at: number, change: Join): Project {
-  return changed(project, at, (place) => {
+  const next = changed(project, at, (place) => {
     const join = Object.fromEntries(Object.entries({ ...place.join, ...change }).filter(([, value]) => value !== undefined))
     return { ...place, join }
   })
+  return project.text === undefined ? next : { ...next, text: project.text }
 }
 export function withHow(project: Project, change: Partial<How>): Project {
   return { ...project, how: { ...project.how, ...change } }
@@ -141,12 +149,13 @@ function sameBefore(a: Place, b: Place, k: number): boolean {
 export function sameProject(a: Project, b: Project): boolean {
   return (
     a.original === b.original &&
+    a.text === b.text &&
     sameHow(a.how, b.how) &&
     a.places.length === b.places.length &&
     a.places.every((one, k) => sameSign(one, b.places[k]) && sameBefore(one, b.places[k], k))
   )
 }
-/** Returns the index of the first place that differs in sign, position or join; the number of places if all are equal. */
+/** Returns the index of the first place that differs in sign, position or join, 0 if only parts differ; the number of places if all is equal. */
 export function firstChange(a: Project, b: Project): number {
   if (!sameHow(a.how, b.how)) return 0
   let k = 0
@@ -156,5 +165,5 @@ export function firstChange(a: Project, b: Project): number {
     if (!sameSign(one, other) || !sameBefore(one, other, k)) break
     ++k
   }
-  return k
+  return k === a.places.length && k === b.places.length && a.text !== b.text ? 0 : k
 }

@@ -23,11 +23,11 @@ const kFull: Project = {
 it('is unchanged by writing to and reading from an address', () => {
   const route = parseRoute(addressOf({ page: 'compose', database: 'demo', state: stateOf(kFull) }))
   const state = 'state' in route ? route.state : {}
-  const { project, wrong } = projectOf(state, kPlaces)
+  const { project, wrong } = projectOf(state, { places: kPlaces })
   expect(state.utterance).toBe('VANNES MATIN#2 , "LE MANS" "ISL Thanks"@1200..3400')
   expect([sameProject(project, kFull), wrong]).toEqual([true, []])
   expect(stateOf(kEmpty)).toEqual({})
-  expect(projectOf({}, [])).toEqual({ project: kEmpty, wrong: [] })
+  expect(projectOf({}, { places: [] })).toEqual({ project: kEmpty, wrong: [] })
 })
 
 it('names unreadable parts of an address, and keeps the rest', () => {
@@ -40,7 +40,7 @@ it('names unreadable parts of an address, and keeps the rest', () => {
     transition: '1;2',
     junctions: '1=gap;7=gap;1=,',
   }
-  const { project, wrong } = projectOf(given, signs('A', 'B'))
+  const { project, wrong } = projectOf(given, { places: signs('A', 'B') })
   expect(wrong).toEqual(['transition', 'duration', 'tempo', 'align', 'rate', 'junctions'])
   expect(project.places.map(({ join }) => join)).toEqual([{}, { method: 'gap' }])
   expect(projectOf({ utterance: 'A "B' }, undefined)).toEqual({ project: kEmpty, wrong: ['utterance'] })
@@ -90,7 +90,7 @@ it('rejects a file that it does not fully understand, with the position', () => 
   expect(refused(() => {})).toBe('taken')
   expect(of('{')).toBe('notJson')
   expect(['[]', 'null', '{"a":1}'].map(of)).toEqual(['notProject', 'notProject', 'notProject'])
-  expect(refused((file) => (file.version = 2))).toBe('newerVersion 2')
+  expect(refused((file) => (file.version = 3))).toBe('newerVersion 3')
   expect(refused((file) => (file.version = 0))).toBe('badValue version')
   expect(refused((file) => (file.colour = 'red'))).toBe('unknownField colour')
   expect(refused((file) => (file.settings.swing = 1))).toBe('unknownField settings.swing')

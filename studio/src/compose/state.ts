@@ -1,12 +1,13 @@
 import { addressOf, type WorkState } from '../ui/route'
 import { isDuration, isMethod, isTempo, joinTexts, readJoin } from './joins'
-import { kAligns, kEmpty, kHow, withJoin, withPlaces, type How, type Place, type Project } from './project'
-import { textOf } from './utterance'
+import { kAligns, kEmpty, kHow, withJoin, type How, type Project } from './project'
+import { utteranceOf, type Reading } from './utterance'
 
 /** Returns a project's state in the address: only what differs from the defaults. */
-export function stateOf({ places, how, original }: Project): Record<string, string> {
+export function stateOf(project: Project): Record<string, string> {
+  const { places, how, original } = project
   const state: Record<string, string> = {}
-  if (places.length > 0) state.utterance = textOf(places)
+  if (places.length > 0) state.utterance = utteranceOf(project)
   if (how.transition !== kHow.transition) state.transition = how.transition
   if (how.duration !== kHow.duration) state.duration = String(how.duration)
   if (how.tempo !== kHow.tempo) state.tempo = String(how.tempo)
@@ -31,8 +32,8 @@ export interface Read {
   readonly wrong: readonly string[]
 }
 
-/** Returns the project in an address. Unreadable parts are left out and named. `places` are those of its utterance; undefined if that could not be read. */
-export function projectOf(state: WorkState, places: readonly Place[] | undefined): Read {
+/** Returns the project in an address. Unreadable parts are left out and named. `reading` is that of its utterance; undefined if that could not be read. */
+export function projectOf(state: WorkState, reading: Pick<Reading, 'places' | 'text'> | undefined): Read {
   const wrong: string[] = []
   const read = <T>(name: string, from: (text: string) => T | undefined): T | undefined => {
     if (state[name] === undefined) return undefined
@@ -40,7 +41,7 @@ export function projectOf(state: WorkState, places: readonly Place[] | undefined
     if (value === undefined) wrong.push(name)
     return value
   }
-  read('utterance', () => places)
+  read('utterance', () => reading)
   const how: How = {
     transition: read('transition', (text) => (isMethod(text) ? text : undefined)) ?? kHow.transition,
     duration: read('duration', readDuration) ?? kHow.duration,
@@ -48,7 +49,8 @@ export function projectOf(state: WorkState, places: readonly Place[] | undefined
     align: read('align', (text) => kAligns.find((one) => one === text)) ?? kHow.align,
     rate: read('rate', (text) => (isRate(text) ? text : undefined)) ?? kHow.rate,
   }
-  let project = withPlaces({ ...kEmpty, how, original: state.original || undefined }, places ?? [])
+  const { places = [], text } = reading ?? {}
+  let project: Project = { ...kEmpty, how, original: state.original || undefined, places, ...(text !== undefined && { text }) }
   for (const text of state.junctions?.split(';') ?? []) {
     const one = readJoin(text)
     if (one && one.junction < project.places.length) project = withJoin(project, one.junction, one.join)

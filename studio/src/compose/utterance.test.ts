@@ -3,7 +3,7 @@ import type { UtteranceFault as UtteranceFaultRow, UtteranceText } from '../api/
 import { carried } from './carry'
 import { piecePlace, signPlace, withJoin, withPlaces, kEmpty, type Place } from './project'
 import { signs } from './test_places'
-import { canBeTyped, readerOf, textOf, UtteranceFault, wordOf } from './utterance'
+import { canBeTyped, readerOf, textOf, UtteranceFault, wholeBody, wordOf } from './utterance'
 
 const plain = ({ id: _, ...rest }: Place) => rest
 
@@ -43,18 +43,20 @@ it('throws the first fault, at its place in the text', async () => {
   expect([text.slice(range.begin, range.end), corrected]).toEqual(['"手', '😀 A "手"'])
 })
 
-it('refuses what a project cannot hold', async () => {
+it('tells texts that give parts something of their own, and refuses them where single signs are typed', async () => {
   const place = { gloss: 'A', begin: 0, end: 1 }
   const code = async (answer: Partial<UtteranceText>) =>
-    readerOf(() => Promise.resolve({ places: [place], faults: [], ...answer }))('A').then(
-      () => 'read',
+    wholeBody(readerOf(() => Promise.resolve({ places: [place], faults: [], ...answer })))('A').then(
+      ({ text }) => `read ${text}`,
       (wrong: unknown) => (wrong as UtteranceFault).row.code as string,
     )
-  expect(await code({})).toBe('read')
+  expect(await code({})).toBe('read undefined')
   expect(await code({ holds: [{ hand: 'weak', from: 0, until: 1 }] })).toBe('text_with_parts')
   expect(await code({ non_manuals: [{ kind: 'gaze', what: 'left', first: 0, last: 0, begin_ms: 0, end_ms: 0 }] })).toBe('text_with_parts')
   expect(await code({ places: [{ ...place, dominant: 'left' }] })).toBe('text_with_parts')
   expect(await code({ places: [{ ...place, parts: [{ part: 'weak', places: 1, signs: [{ gloss: 'B' }] }] }] })).toBe('text_with_parts')
+  const read = readerOf(() => Promise.resolve({ places: [{ ...place, dominant: 'left' }], faults: [] }))
+  expect(await read(' A{dominant left} ')).toMatchObject({ text: 'A{dominant left}', places: [{ gloss: 'A' }] })
 })
 
 it('quotes names that would be read as something else', () => {

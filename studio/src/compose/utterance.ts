@@ -1,6 +1,6 @@
 import { StudioFault } from '../api/fault'
 import type { UtteranceFault as UtteranceFaultRow, UtterancePlace, UtteranceText } from '../api/schema'
-import { piecePlace, signPlace, type Pause, type Place } from './project'
+import { piecePlace, signPlace, withPlaces, type Pause, type Place, type Project } from './project'
 
 /** A text that cannot be read as an utterance: the first of its faults. */
 export class UtteranceFault extends Error {
@@ -24,7 +24,8 @@ export class UtteranceFault extends Error {
 
 /** The content of a text. */
 export interface Reading {
-  readonly places: readonly Place[]
+  /** Of the whole body. */ readonly places: readonly Place[]
+  /** The text, if it also gives parts of the signer something of their own. */ readonly text?: string
   /** The pause after the last place. */ readonly pause: Pause
 }
 /** Reads the text of an utterance; throws UtteranceFault, or what the call throws. */
@@ -33,7 +34,7 @@ export type ReadText = (text: string, signal?: AbortSignal) => Promise<Reading>
 const kWithParts: UtteranceFaultRow = {
   // The code of a message of the studio: no server has it.
   code: 'text_with_parts' as UtteranceFaultRow['code'],
-  message: 'only places of the whole body can be composed here',
+  message: 'only signs of the whole body can be typed here',
   line: 1,
   column: 1,
   begin: 0,
@@ -46,10 +47,16 @@ export function readerOf(ask: (text: string, signal?: AbortSignal) => Promise<Ut
     if (text.trim() === '') return { places: [], pause: 'none' }
     const { places, pause, faults, holds, non_manuals } = await ask(text, signal)
     if (faults.length > 0) throw new UtteranceFault(text, faults[0])
-    // A project has no place for these, and would sign the text without them.
-    if (holds ?? non_manuals ?? places.find(({ parts, dominant }) => parts ?? dominant))
-      throw new UtteranceFault(text, { ...kWithParts, end: [...text].length })
-    return { places: places.map(placeOf), pause: pause ?? 'none' }
+    const hasParts = (holds ?? non_manuals ?? places.find(({ parts, dominant }) => parts ?? dominant)) !== undefined
+    return { places: places.map(placeOf), pause: pause ?? 'none', ...(hasParts && { text: text.trim() }) }
+  }
+}
+/** Reads single signs: throws UtteranceFault for a text with parts, of which the places alone would be something else. */
+export function wholeBody(read: ReadText): ReadText {
+  return async (text, signal) => {
+    const reading = await read(text, signal)
+    if (reading.text !== undefined) throw new UtteranceFault(text, { ...kWithParts, end: [...text].length })
+    return reading
   }
 }
 
@@ -76,7 +83,18 @@ export function wordOf(place: Place): string {
   return quoted(place.gloss) + (place.token > 0 ? `#${place.token}` : '')
 }
 
+/** Text that is read as the same project, apart from its joins. */
+export function utteranceOf({ places, text }: Project): string {
+  return text ?? textOf(places)
+}
+/** The project with these signed at its end. */
+export function appended(project: Project, more: readonly Place[]): Project {
+  const next = withPlaces(project, [...project.places, ...more])
+  return project.text === undefined ? next : { ...next, text: [project.text, ...more.map(pausedWordOf)].join(' ') }
+}
+
 /** Text that is read as the same places. */
 export function textOf(places: readonly Place[]): string {
-  return places.map((place, k) => (k === 0 || place.pause === 'none' ? '' : place.pause === 'comma' ? ', ' : '. ') + wordOf(place)).join(' ')
+  return places.map((place, k) => (k === 0 ? wordOf(place) : pausedWordOf(place))).join(' ')
 }
+const pausedWordOf = (place: Place) => (place.pause === 'none' ? '' : place.pause === 'comma' ? ', ' : '. ') + wordOf(place)

@@ -3,12 +3,14 @@ import type { Api } from '../api/client'
 import { ApiError } from '../api/fault'
 import type { AnnotationDocument } from '../annotation/document'
 import { readEaf } from '../annotation/eaf'
+import { documentOf } from '../annotation/made_document'
 import { correspondingTime, stepsOfSigns, type Steps } from '../motion/in_step'
 import { MadeSource } from '../motion/made_source'
 import { RecordingSource } from '../motion/recording_source'
 import type { Declarations } from '../motion/declarations'
 import type { MotionSource } from '../motion/source'
 import { StreamSource } from '../motion/stream_source'
+import { preferences } from '../ui/preferences.svelte'
 import type { Route } from '../ui/route'
 import type { Showing, Strand } from '../viewer/showing'
 import { Transport } from '../viewer/transport'
@@ -33,7 +35,12 @@ export class Session implements Showing {
   strands = $state.raw<readonly Strand[]>([])
   /** The strand that the transport's time and the timeline belong to. */
   main = $state.raw<Strand | undefined>()
-  document = $state.raw<AnnotationDocument>(kEmpty)
+  /** Of the recording, or of the result, as the timeline draws it. */
+  readonly document: AnnotationDocument = $derived.by(() => {
+    const { report } = this.main?.motion ?? {}
+    return report ? documentOf(report, preferences.text) : this.recorded
+  })
+  private recorded = $state.raw<AnnotationDocument>(kEmpty)
   /** Videos linked by the recording's annotation. */
   media = $state.raw<readonly MediaRow[]>([])
   /** Whether the annotation is loaded, or known to be unavailable. */
@@ -169,19 +176,16 @@ export class Session implements Showing {
         .annotation(database, shown.recording)
         .then((eaf) => void (this.original = readEaf(eaf)))
         .catch((fault: unknown) => this.note(fault))
-      void this.annotate(api.madeAnnotation(database, 'edit', bodyOf(shown)))
     } else if (shown.pace === 'live') this.annotated = true
-    else void this.annotate(api.madeAnnotation(database, 'sign', bodyOf(shown)))
   }
 
   /** A missing annotation is fine; a failure to load one is reported. */
   private async annotate(eaf: Promise<string>): Promise<void> {
     try {
       const read = readEaf(await eaf)
-      if (!this.worn.closed) this.document = read
+      if (!this.worn.closed) this.recorded = read
     } catch (fault) {
-      // If the signing is impossible, the motion's request reports it, because it is refused for the same reason.
-      if (!(fault instanceof ApiError && (fault.status === 404 || fault.status === 400))) this.note(fault)
+      if (!(fault instanceof ApiError && fault.status === 404)) this.note(fault)
     }
     this.annotated = true
   }
@@ -196,6 +200,8 @@ export class Session implements Showing {
     this.transport.live = main.source instanceof StreamSource
     this.progress(main.source)
     this.status = 'open'
+    // The annotation of a result comes with its frames.
+    if (main.motion.report) this.annotated = true
     if (first && this.shown.page === 'recording' && this.shown.span) this.select(this.shown.span, this.shown.at)
     if (first && this.shown.page === 'sign') this.transport.play()
   }

@@ -1,4 +1,4 @@
-import type { Annotation, AnnotationDocument, Tier } from '../annotation/document'
+import type { Annotation, AnnotationDocument, LaneKind, Tier } from '../annotation/document'
 import type { FrameStore } from '../motion/frame_store'
 import { extentOf, valueAt, type Curve } from './curves'
 import { clock } from '../ui/clock'
@@ -34,7 +34,7 @@ export function colorsOf(element: Element): Colors {
   return Object.fromEntries(kColorNames.map((name) => [name, style.getPropertyValue(`--${name}`).trim()]))
 }
 
-const kFill: Readonly<Record<BoxKind, string>> = {
+const kFill: Readonly<Record<BoxKind | LaneKind, string>> = {
   gloss: 'gloss',
   preparation: 'preparation',
   stroke: 'stroke',
@@ -42,6 +42,11 @@ const kFill: Readonly<Record<BoxKind, string>> = {
   source: 'other',
   junction: 'retraction',
   other: 'other',
+  clip: 'gloss',
+  shared: 'other',
+  transition: 'retraction',
+  hold: 'gloss',
+  movement: 'preparation',
 }
 
 export interface Drawing {
@@ -102,15 +107,16 @@ const kStates: Readonly<Record<NonNullable<Annotation['state']>, string>> = { op
 function drawTier(context: CanvasRenderingContext2D, { window, colors, originMs }: Drawing, tier: Tier, y: number): void {
   let from = firstEndAfter(tier, window.begin * 1000 + originMs)
   for (; from < tier.annotations.length; ++from) {
-    const { begin, end, label, state, current } = tier.annotations[from]
+    const { begin, end, label, state, current, kind: lane } = tier.annotations[from]
     const left = window.x((begin - originMs) / 1000),
       right = window.x((end - originMs) / 1000)
     if (left > window.pixels) break
-    const kind = kindOf(tier.name, tier.depth, label)
+    const kind = lane ?? kindOf(tier.name, tier.depth, label)
     const width = Math.max(1.5, right - left - 1),
       isFull = state === undefined || state === 'accepted'
     context.fillStyle = context.strokeStyle = colors[kFill[kind]]
-    if (isFull) box(context, left + 0.5, y + 3, width, kTierHeight - 6)
+    if (kind === 'hold') held(context, left + 1.5, y + 4, Math.max(1, width - 2), kTierHeight - 8)
+    else if (isFull) box(context, left + 0.5, y + 3, width, kTierHeight - 6)
     else outline(context, left + 1.5, y + 4, Math.max(1, width - 2), kTierHeight - 8, state === 'rejected' ? [3, 3] : [], 2)
     if (current) {
       context.strokeStyle = colors.focus
@@ -118,7 +124,8 @@ function drawTier(context: CanvasRenderingContext2D, { window, colors, originMs 
     }
     const space = Math.min(right, window.pixels) - Math.max(left, 0) - 8
     if (space < 9) continue
-    context.fillStyle = !isFull ? colors[state === 'rejected' ? 'soft' : 'ink'] : kind === 'stroke' ? colors['stroke-ink'] : colors['chip-ink']
+    if (kind === 'hold') context.fillStyle = colors.ink
+    else context.fillStyle = !isFull ? colors[state === 'rejected' ? 'soft' : 'ink'] : kind === 'stroke' ? colors['stroke-ink'] : colors['chip-ink']
     context.textAlign = 'left'
     context.fillText(shortened(context, state ? `${kStates[state]} ${label}` : label, space), Math.max(left, 0) + 4.5, y + kTierHeight / 2 + 0.5)
   }
@@ -218,6 +225,14 @@ function outline(context: CanvasRenderingContext2D, x: number, y: number, width:
   context.roundRect(x, y, width, height, Math.min(4, width / 3))
   context.stroke()
   context.setLineDash([])
+}
+
+/** A held pose: a tint with a dashed outline. */
+function held(context: CanvasRenderingContext2D, x: number, y: number, width: number, height: number): void {
+  context.globalAlpha = 0.3
+  context.fillRect(x, y, width, height)
+  context.globalAlpha = 1
+  outline(context, x, y, width, height, [4, 3], 2)
 }
 
 function line(context: CanvasRenderingContext2D, x: number, y: number, toX: number, toY: number, color: string, opacity: number): void {

@@ -2,7 +2,7 @@
 import { mkdirSync } from 'node:fs'
 import { join } from 'node:path'
 import { withBrowser } from './chromium.mjs'
-import { linkVideo, withServer } from './server.mjs'
+import { kScenario3, linkVideo, withServer } from './server.mjs'
 import { drawn, opened } from './waits.mjs'
 
 const [site, out, only = ''] = process.argv.slice(2)
@@ -29,6 +29,7 @@ const kViews = [
   { name: 'two_recordings', hash: '#/demo/recording/meteo?at=2.2&compare=villes' },
   { name: 'scenario_1', hash: kEdit, seek: 29.4, keys: ['+', '+', '+'] },
   { name: 'signed', hash: '#/demo/sign/' + encodeURIComponent('VANNES MATIN , "LE MANS" PLUIE'), keys: ['Space'], seek: 1.4 },
+  { name: 'signed_lanes', hash: '#/channels/sign/' + encodeURIComponent(kScenario3), seek: 4.1 },
   { name: 'live', hash: '#/demo/sign/' + encodeURIComponent('VANNES MATIN') + '?pace=live' },
   { name: 'help', hash: '#/demo/recording/meteo?at=2.2', keys: ['?'] },
   {
@@ -97,6 +98,7 @@ const kViews = [
   { name: 'search_grid', hash: '#/demo/search?view=grid&q=' + encodeURIComponent('phase = stroke & like("villes"@1810..2390)'), body: 'drawn', then: shown },
   { name: 'fault', hash: '#/demo/recording/nobody' },
   { name: 'new_signing', hash: kCompose, then: (page) => composed(page) },
+  { name: 'compose_lanes', hash: '#/channels/compose?' + new URLSearchParams({ utterance: kScenario3 }), then: (page) => composed(page, 10.3) },
   { name: 'compose_empty', hash: '#/demo/compose', then: (page) => page.locator('.empty button').first().waitFor() },
   {
     name: 'compose_tokens',
@@ -238,5 +240,5 @@ await withServer(
     }
   },
   linkVideo,
-  { mine: true },
+  { mine: true, channels: true },
 )

@@ -13,10 +13,11 @@ const kCharacters = process.env.SIGNWEAVE_CHARACTERS ?? resolve(kStudio, '../bui
 
 /**
  * Runs `work(address, folder)` with a separate server, which serves the built studio, the characters and a demo corpus of two minutes (or `minutes`), and
- * cleans up afterwards. With `mine` an empty database `mine` is served, too, and both are writable. Videos that the annotation links are expected in
- * `folder`/films. With a `token` the server requires it. `prepare(corpus)` may change the corpus before it is imported.
+ * cleans up afterwards. With `mine` an empty database `mine` is served, too, and all are writable; with `channels` one of recordings with tiers for each hand.
+ * Videos that the annotation links are expected in `folder`/films. With a `token` the server requires it. `prepare(corpus)` may change the corpus before it is
+ * imported.
  */
-export async function withServer(site, work, prepare = () => {}, { minutes = 2, mine = false, token = '' } = {}) {
+export async function withServer(site, work, prepare = () => {}, { minutes = 2, mine = false, channels = false, token = '' } = {}) {
   for (const program of ['signweave', 'synthetic_signer']) {
     if (!existsSync(join(kBin, program))) throw new Error(`${join(kBin, program)} does not exist; scripts/build creates it, SIGNWEAVE_BIN sets another folder`)
   }
@@ -35,6 +36,7 @@ export async function withServer(site, work, prepare = () => {}, { minutes = 2, 
     execFileSync(join(kBin, 'signweave'), ['import', database, corpus], { stdio: 'ignore' })
     if (mine) execFileSync(join(kBin, 'signweave'), ['create', join(folder, 'mine.db')], { stdio: 'ignore' })
     const words = ['serve', database, '--listen', '127.0.0.1:0', '--files', site, '--characters', kCharacters, '--media', films]
+    if (channels) words.splice(2, 0, channelsIn(folder))
     if (mine) words.splice(2, 0, join(folder, 'mine.db'), '--writable')
     if (token) {
       writeFileSync(join(folder, 'token'), token)
@@ -76,6 +78,23 @@ export async function withServer(site, work, prepare = () => {}, { minutes = 2, 
     rmSync(folder, { recursive: true, force: true })
   }
 }
+
+/** Makes a database of the recordings `mains` and `visage`, and returns its path. */
+function channelsIn(folder) {
+  const corpus = join(folder, 'channels'),
+    database = join(folder, 'channels.db')
+  execFileSync(join(kBin, 'synthetic_signer'), [corpus, '--channels'], { stdio: 'ignore' })
+  execFileSync(join(kBin, 'signweave'), ['create', database], { stdio: 'ignore' })
+  execFileSync(join(kBin, 'signweave'), ['import', database, corpus], { stdio: 'ignore' })
+  return database
+}
+
+/** The third scenario of scripts/demo, for that database. */
+export const kScenario3 = [
+  'REGION{left hold ..OUEST} NORD SOLEIL-BRILLER OUEST',
+  '{q-polar: DEMAIN PLEUVOIR}',
+  'VANNES{mouth "vannes"; gaze @left} BREST{mouth "brest"} RENNES{mouth "rennes"}',
+].join(' . ')
 
 /** Prepares a corpus: `villes` loses its face and gets a linked video. */
 export function linkVideo(corpus) {

@@ -1,4 +1,5 @@
-// The fixtures shared by all browser tests: one browser, one server with a demo corpus (and an empty database that tests may change), one page.
+// The fixtures shared by all browser tests: one browser, one page, and one server with a demo corpus, recordings with tiers for each hand, and an empty
+// database that tests may change.
 import { after, afterEach, test as run } from 'node:test'
 import { withBrowser } from './chromium.mjs'
 import { beginEvidence, inTime, leaveEvidence } from './evidence.mjs'
@@ -54,7 +55,7 @@ async function studio() {
       site,
       (at, made) => withBrowser((opened) => work(at, made, opened), { locale: 'en-GB', colorScheme: 'dark', acceptDownloads: true }),
       linkVideo,
-      { mine: true },
+      { mine: true, channels: true },
     ),
   )
   ;[address, folder, context] = await held.given

@@ -3,6 +3,6 @@
  * browser.
  */
 export const kHalves = [
-  ['studio', 'search', 'search_kept', 'evaluate', 'guide', 'verb', 'import_choices', 'import_preview', 'sizes', 'drop', 'home'],
+  ['studio', 'search', 'search_kept', 'evaluate', 'guide', 'verb', 'import_choices', 'import_preview', 'sizes', 'drop', 'home', 'lanes'],
   ['compose', 'compose_keeps', 'compare', 'corpus', 'phases', 'render', 'doors', 'names'],
 ]

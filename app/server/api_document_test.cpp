@@ -214,6 +214,11 @@ TEST(ApiDocument, AnswersToPostAndErrorsMatchTheirSchemas) {
   EXPECT_THAT(
       faults_of(json_in(api.send("POST", sign, {{"utterance", "VANNES MATIN"}, {"explain", true}})), "Synthesis"),
       testing::IsEmpty());
+  const json channels =
+      json_in(api.send("POST", sign, {{"utterance", R"(VANNES{left hold ..; brows up} MATIN{mouth "matin"})"}}));
+  EXPECT_THAT(faults_of(channels, "Synthesis"), testing::IsEmpty());
+  EXPECT_EQ(channels["lanes"].size(), 1u) << channels["lanes"];
+  EXPECT_EQ(channels["movements"].size(), 2u) << channels["movements"];
   EXPECT_THAT(faults_of(json_in(api.send("POST", {"utterance"}, {{"text", "A , r@1..2 B#0 ."}})), "UtteranceText"),
               testing::IsEmpty());
   const std::string parts = R"([A | weak: B r@1..2 @end-1] C{left hold ..; dominant left; gaze @up} D)";

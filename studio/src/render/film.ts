@@ -40,11 +40,11 @@ export class Film {
     this.encoder.configure(config)
   }
 
-  /** Starts a video of this size at `rate` frames a second, in VP9, or in VP8 if the browser has no VP9. */
-  static async of(width: number, height: number, rate: number): Promise<Film> {
+  /** Starts a video of this size at `rate` frames a second and `bits` per pixel, in VP9, or in VP8 if the browser has no VP9. */
+  static async of(width: number, height: number, rate: number, bits = kBits): Promise<Film> {
     if (typeof VideoEncoder === 'undefined') throw new Error('this browser cannot encode video: it lacks WebCodecs')
     for (const codec of [vp9Codec(width, height, rate), 'vp8']) {
-      const config: VideoEncoderConfig = { codec, width, height, framerate: rate, bitrate: Math.round(kBits * width * height * rate), latencyMode: 'quality' }
+      const config: VideoEncoderConfig = { codec, width, height, framerate: rate, bitrate: Math.round(bits * width * height * rate), latencyMode: 'quality' }
       const { supported } = await VideoEncoder.isConfigSupported(config).catch(() => ({ supported: false }))
       if (supported) return new Film(config, rate)
     }

@@ -84,3 +84,15 @@ export async function computedBy(page) {
     return 1000 * metrics.find(({ name }) => name === 'ThreadTime').value
   }
 }
+
+/** Makes a page take the software renderer for a graphics card: shadows and antialiasing, however long they take. */
+export function likeACard() {
+  const { getParameter } = WebGL2RenderingContext.prototype
+  WebGL2RenderingContext.prototype.getParameter = function (name) {
+    return name === 0x9246 ? 'a card' : getParameter.call(this, name) // UNMASKED_RENDERER_WEBGL
+  }
+  const { getContext } = HTMLCanvasElement.prototype
+  HTMLCanvasElement.prototype.getContext = function (kind, options) {
+    return getContext.call(this, kind, { ...options, failIfMajorPerformanceCaveat: false })
+  }
+}

@@ -2,6 +2,7 @@
 import { mkdirSync } from 'node:fs'
 import { join } from 'node:path'
 import { withBrowser } from './chromium.mjs'
+import { likeACard } from './page_tools.mjs'
 import { kScenario3, linkVideo, withServer } from './server.mjs'
 import { drawn, opened } from './waits.mjs'
 
@@ -181,18 +182,6 @@ async function shown(page) {
     { timeout: 90_000 },
   )
   await page.evaluate(() => document.querySelector('.play').click()) // at once: during playback, software rendering leaves no time for a mouse
-}
-
-/** Makes a page take the software renderer for a graphics card: shadows and antialiasing, however long they take. */
-function likeACard() {
-  const { getParameter } = WebGL2RenderingContext.prototype
-  WebGL2RenderingContext.prototype.getParameter = function (name) {
-    return name === 0x9246 ? 'a card' : getParameter.call(this, name) // UNMASKED_RENDERER_WEBGL
-  }
-  const { getContext } = HTMLCanvasElement.prototype
-  HTMLCanvasElement.prototype.getContext = function (kind, options) {
-    return getContext.call(this, kind, { ...options, failIfMajorPerformanceCaveat: false })
-  }
 }
 
 mkdirSync(out, { recursive: true })

@@ -344,7 +344,7 @@ Synthesis compose(const std::vector<MotionClip>& clips, const ChannelParts& part
   Renderer renderer(plan_of(score, composer.clips()), setup.settings);
   set_places(score, renderer.find_places(static_cast<ClipId>(clips.size()), out.motion));
   check(score, "score");
-  render_over_body(std::move(score), composer.clips(), setup.settings, out);
+  render_over_body(std::move(score), renderer, composer.clips(), out);
   return out;
 }
 

@@ -6,7 +6,6 @@
 #include <memory>
 #include <string>
 
-#include "signweave/choose/on_skeleton.h"
 #include "signweave/database/signer_dominance.h"
 #include "signweave/retarget/mirrored_source.h"
 
@@ -30,14 +29,13 @@ void mark_mirrored(std::vector<MotionClip>& clips, std::span<const std::optional
   }
 }
 
-void mirror_marked(std::vector<MotionClip>& clips, const Contents& contents, std::vector<Notice>& notices) {
+void mirror_marked(std::vector<MotionClip>& clips, const Snapshot& snapshot, std::vector<Notice>& notices) {
   std::map<std::string, std::shared_ptr<const MotionSource>> sources;  // by recording
   for (MotionClip& clip : clips) {
     if (!clip.mirrored) continue;
     std::shared_ptr<const MotionSource>& source = sources[clip.recording];
     if (!source) {
-      const auto mirroring =
-          std::make_shared<const Mirroring>(mirroring_of(body_of(contents, clip.recording, *clip.source)));
+      const auto mirroring = snapshot.mirroring(snapshot.contents().at(clip.recording));
       notices.insert(notices.end(), mirroring->notices.begin(), mirroring->notices.end());
       source = std::make_shared<MirroredSource>(clip.source, mirroring);
     }

@@ -19,6 +19,6 @@ void mark_mirrored(std::vector<MotionClip>& clips, std::span<const std::optional
 /// Mirrors the clips that are marked as mirrored, frame by frame when they are read; each recording is examined once.
 /// Adds the messages of each mirroring to `notices`. Throws Error{bad_input} for a signer
 /// that cannot be mirrored (mirroring_of).
-void mirror_marked(std::vector<MotionClip>& clips, const Contents& contents, std::vector<Notice>& notices);
+void mirror_marked(std::vector<MotionClip>& clips, const Snapshot& snapshot, std::vector<Notice>& notices);
 
 }  // namespace signweave

@@ -4,11 +4,14 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
 #include <optional>
 #include <string>
 
 #include "signweave/core/text.h"
+#include "signweave/features/contact.h"
 #include "signweave/features/hand_motion.h"
+#include "signweave/features/smoothing.h"
 #include "signweave/features/two_handed.h"
 #include "signweave/features/unmarked_handshape.h"
 #include "signweave/render/hand_meter.h"
@@ -23,26 +26,54 @@ constexpr Seconds kLeastCommon{0.1};
 
 /// Both hands over some frames of a motion.
 struct BothHands {
-  TwoHanded movement;
-  std::array<Handshape, 2> shapes;  ///< [Side] in the middle
-  bool have_fingers = false;
+  TwoHanded movement;  ///< without `openness_apart`
+  HandsMeeting meeting;
 };
-std::optional<BothHands> both_hands(const Motion& motion, const SignerModel& signer, FrameRange frames) {
-  const HandMotion measured = measure_hands(motion, signer, frames);
-  std::array<PointTrack, 2> palms;
+
+/// Measures both hands in one pass. The movement is as of measure_hands.
+BothHands both_hands(HandMeter& meter, const SignerBody& body, const Motion& motion, FrameRange frames) {
+  const Smoother smoother(kSmoothing, motion.rate(), motion.frame_count());
+  const FrameRange seen = smoother.window(frames);
+  std::array<std::vector<Eigen::Vector3f>, 2> paths;
   BothHands both;
-  both.have_fingers = true;
+  for (std::int64_t frame = seen.begin; frame < seen.end; ++frame) {
+    meter.look(motion.pose(frame));
+    for (const Side side : kSides) {
+      paths[static_cast<std::size_t>(side)].push_back(meter.space().to_signer(meter.palm(side)));
+    }
+    if (frame >= frames.begin && frame < frames.end) meter.meet(both.meeting);
+  }
+  std::array<PointTrack, 2> palms;
   for (std::size_t side = 0; side < 2; ++side) {
-    const HandMotion::OneHand& hand = measured.hands[side];
-    if (hand.frames.empty()) return std::nullopt;
-    for (const HandFrame& frame : hand.frames) palms[side].push_back(point_of(frame));
-    both.shapes[side] = hand.frames[hand.frames.size() / 2].handshape;
-    both.have_fingers = both.have_fingers && hand.why_no_fingers.empty();
+    for (std::int64_t frame = frames.begin; frame < frames.end; ++frame) {
+      palms[side].push_back({.position = paths[side][static_cast<std::size_t>(frame - seen.begin)],
+                             .velocity = smoother.at(frame, paths[side], seen.begin).velocity * body.shoulder_width,
+                             .state = {}});
+    }
   }
   TwoHandedSum sum;
   sum.add(palms[0], palms[1]);
   both.movement = sum.movement();
+  both.movement.contact = -both.meeting.depth <= kContactGap * body.shoulder_width;
   return both;
+}
+
+/// The handshapes in one frame, [Side].
+std::array<Handshape, 2> handshapes(const Motion& motion, const SignerModel& signer, std::int64_t frame) {
+  const HandMotion measured = measure_hands(motion, signer, {frame, frame + 1});
+  return {measured.hands[0].frames.front().handshape, measured.hands[1].frames.front().handshape};
+}
+
+/// The mean difference of the hands' openness (TwoHanded::openness_apart).
+float openness_apart(const Motion& motion, const SignerModel& signer) {
+  const HandMotion measured = measure_hands(motion, signer, {0, motion.frame_count()});
+  std::array<PointTrack, 2> palms;
+  for (std::size_t side = 0; side < 2; ++side) {
+    for (const HandFrame& frame : measured.hands[side].frames) palms[side].push_back(point_of(frame));
+  }
+  TwoHandedSum sum;
+  sum.add(palms[0], palms[1]);
+  return sum.movement().openness_apart;
 }
 
 class ChannelLint {
@@ -64,22 +95,22 @@ class ChannelLint {
       const FrameRange common{std::max(at.begin, theirs.begin), std::min(at.end, theirs.end)};
       const auto least = static_cast<std::int64_t>(kLeastCommon.count() * made_.score.rate.hertz());
       if (common.end - common.begin < least) continue;
-      shapes(own, clips_[i], *side, common);
-      collision(own.clip, clips_[i], *side, common);
+      if (!has_hands()) continue;
+      const BothHands both = both_hands(meter_, *rig_.signer.body, made_.motion, common);
+      shapes(own, clips_[i], *side, common, both.movement);
+      collision(own.clip, clips_[i], *side, both.meeting);
     }
   }
 
   /// What a channel leaves out of the signs of the whole body, from one clip to another.
   void dropped(Channel channel, std::size_t first, std::size_t last) {
     const std::optional<Side> side = side_of_arm(channel);
-    if (!side) return;
+    if (!side || !has_hands()) return;
     for (std::size_t i = first; i <= last; ++i) {
-      const std::optional<BothHands> both = captured(clips_[i]);
-      if (!both) continue;
-      const std::optional<Hands> hands = class_of(both->movement, *rig_.signer.body);
-      if (hands == Hands::one || (!both->movement.contact && hands != Hands::alternating)) continue;
+      const bool touch = captured(clips_[i]).movement.contact;
+      if (!touch && !alternates(clips_[i])) continue;
       add("weak_drop", fmt::format("the {} hand does something else in {}, in which both hands {}", name_of(channel),
-                                   quoted_name(clips_[i]), both->movement.contact ? "touch" : "alternate"));
+                                   quoted_name(clips_[i]), touch ? "touch" : "alternate"));
     }
   }
 
@@ -110,48 +141,55 @@ class ChannelLint {
     if (std::ranges::find(notices_, notice) == notices_.end()) notices_.push_back(std::move(notice));
   }
 
-  void shapes(const ChannelClip& own, const MotionClip& body, Side side, FrameRange common) {
-    const std::optional<BothHands> both = both_hands(made_.motion, rig_.signer, common);
-    if (!both || !both->have_fingers) return;
+  bool has_hands() const noexcept { return meter_.has(Side::left) && meter_.has(Side::right); }
+
+  void shapes(const ChannelClip& own, const MotionClip& body, Side side, FrameRange common, const TwoHanded& movement) {
+    if (!meter_.has_fingers(Side::left) || !meter_.has_fingers(Side::right)) return;
     const auto slot = static_cast<std::size_t>(side);
-    if (!handshapes_differ(both->shapes[0], both->shapes[1])) return;
-    if (both_move(both->movement)) {
+    const std::array<Handshape, 2> shapes = handshapes(made_.motion, rig_.signer, common.begin + common.size() / 2);
+    if (!handshapes_differ(shapes[0], shapes[1])) return;
+    if (both_move(movement)) {
       add("symmetry", fmt::format("{} and {} move at the same time with different handshapes", quoted_name(own.clip),
                                   quoted_name(body)));
       return;
     }
-    const float own_speed = both->movement.palms[slot].mean_speed;
-    const float other_speed = both->movement.palms[1 - slot].mean_speed;
+    const float own_speed = movement.palms[slot].mean_speed;
+    const float other_speed = movement.palms[1 - slot].mean_speed;
     const bool own_is_held = own_speed < kStillPalm && other_speed > kMovingPalm;
-    if (own_is_held && !is_unmarked(both->shapes[slot])) {
+    if (own_is_held && !is_unmarked(shapes[slot])) {
       add("dominance", fmt::format("the held hand of {} beside {} has a marked handshape of its own",
                                    quoted_name(own.clip), quoted_name(body)));
     }
   }
 
-  void collision(const MotionClip& own, const MotionClip& body, Side side, FrameRange common) {
-    if (!meter_.has(Side::left) || !meter_.has(Side::right)) return;
-    const HandsMeeting made = meter_.meeting(view_of(made_.motion, common));
-    const std::array<HandsMeeting, 2> captured = {meeting_in(own), meeting_in(body)};
-    if (const std::optional<std::string> why = why_hands_collide(made, captured)) {
+  void collision(const MotionClip& own, const MotionClip& body, Side side, const HandsMeeting& made) {
+    const std::array<HandsMeeting, 2> in_captures = {captured(own).meeting, captured(body).meeting};
+    if (const std::optional<std::string> why = why_hands_collide(made, in_captures)) {
       add("collision", fmt::format("{} of the {} hand and {}: {}", quoted_name(own),
                                    side == Side::left ? "left" : "right", quoted_name(body), *why));
     }
   }
 
-  Motion core_of(const MotionClip& clip) const {
+  static Motion core_of(const MotionClip& clip) {
     const std::int64_t frames = std::min<std::int64_t>(clip.core.size(), kBodyFrames);
     Motion core(clip.source->skeleton(), clip.source->rate(), frames);
     clip.source->read({clip.core.begin, clip.core.begin + frames}, core.poses({0, frames}));
     return core;
   }
-  HandsMeeting meeting_in(const MotionClip& clip) {
-    const Motion core = core_of(clip);
-    return meter_.meeting(view_of(core, {0, core.frame_count()}));
+  const BothHands& captured(const MotionClip& clip) {
+    const auto [at, is_new] = captured_.try_emplace(&clip);
+    if (is_new && !clip.core.empty()) {
+      const Motion core = core_of(clip);
+      at->second = both_hands(meter_, *rig_.signer.body, core, {0, core.frame_count()});
+    }
+    return at->second;
   }
-  std::optional<BothHands> captured(const MotionClip& clip) const {
-    const Motion core = core_of(clip);
-    return both_hands(core, rig_.signer, {0, core.frame_count()});
+  /// True if the hands alternate in a clip. Their openness is measured only where it can change that.
+  bool alternates(const MotionClip& clip) {
+    TwoHanded movement = captured(clip).movement;
+    if (class_of(movement, *rig_.signer.body) != Hands::alternating) return false;
+    movement.openness_apart = openness_apart(core_of(clip), rig_.signer);
+    return class_of(movement, *rig_.signer.body) == Hands::alternating;
   }
 
   bool crosses_stop(FrameRange frames, const Utterance& utterance) const {
@@ -168,6 +206,7 @@ class ChannelLint {
   const ChannelParts& parts_;
   const SignerRig& rig_;
   HandMeter meter_;
+  std::map<const MotionClip*, BothHands> captured_;
   std::vector<Notice> notices_;
 };
 

@@ -83,7 +83,7 @@ OpenScore::OpenScore(const Database& database, Score score, const FindSource& ot
   };
   const std::shared_ptr<const MotionSource> home = find(score_.skeleton).motion;
   clips_ = clips_of(score_, find);
-  mirror_marked(clips_, contents, notices_);
+  mirror_marked(clips_, snapshot_, notices_);
   put_on_skeleton(clips_, score_.skeleton.recording, *home, contents, notices_);
   rig_ = signer_rig_of(snapshot_, contents.at(score_.skeleton.recording));
   if (const TransitionMethod* const asking = method_with_needs(clips_, transition_methods().front())) {

@@ -128,7 +128,7 @@ void mirror(std::vector<MotionClip>& clips, const std::vector<ChosenClip>& chose
   for (std::size_t i = 0; i < parts.size(); ++i) {
     if (parts[i].mirrored) clips[body + i].mirrored = *parts[i].mirrored;
   }
-  mirror_marked(clips, snapshot.contents(), notices);
+  mirror_marked(clips, snapshot, notices);
 }
 
 /// `edited` is the name of the edited recording; empty for an utterance.

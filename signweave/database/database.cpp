@@ -111,6 +111,7 @@ std::shared_ptr<const Contents> Database::contents_of(
   contents_at_ = head.changes;
   joins_.clear();
   signers_.clear();
+  mirrorings_.clear();
   learned_.reset();
   std::erase_if(known_, [&](const auto& entry) {
     return std::none_of(made->recordings.begin(), made->recordings.end(), [&](const RecordingInfo& info) {

@@ -34,6 +34,7 @@ namespace signweave {
 class CheckListener;
 class Database;
 class MovementCache;
+struct Mirroring;
 struct PreparedRecording;
 class WriterLock;
 
@@ -79,6 +80,10 @@ class Snapshot {
   /// Returns `model_of` of the whole motion of one of `contents().recordings`; measured once until the database
   /// changes. Throws what `motion` throws.
   std::shared_ptr<const SignerModel> signer(const RecordingInfo& recording) const;
+
+  /// Returns how the motion of one of `contents().recordings` is mirrored (mirroring_of); measured once until the
+  /// database changes. Throws what `motion` and mirroring_of throw.
+  std::shared_ptr<const Mirroring> mirroring(const RecordingInfo& recording) const;
 
   /// Returns the measures of the phases of `contents().recordings[recording]`, as Database::features does; only the
   /// reason if the record is damaged.
@@ -306,9 +311,10 @@ class Database {
   mutable std::uint64_t segments_at_ = 0;
   mutable std::shared_ptr<MovementCache> movement_;  ///< of the newest state that was queried
   mutable std::map<std::uint64_t, std::shared_ptr<const motion_db::KnownMotion>> known_;  ///< by generation
-  mutable std::map<std::size_t, std::shared_ptr<const RecordingJoins>> joins_;   ///< of contents_, by recording
-  mutable std::map<std::uint64_t, std::shared_ptr<const SignerModel>> signers_;  ///< of contents_, by generation
-  mutable std::shared_ptr<const semantic_db::Learned> learned_;                  ///< of contents_
+  mutable std::map<std::size_t, std::shared_ptr<const RecordingJoins>> joins_;    ///< of contents_, by recording
+  mutable std::map<std::uint64_t, std::shared_ptr<const SignerModel>> signers_;   ///< of contents_, by generation
+  mutable std::map<std::uint64_t, std::shared_ptr<const Mirroring>> mirrorings_;  ///< likewise
+  mutable std::shared_ptr<const semantic_db::Learned> learned_;                   ///< of contents_
 };
 
 }  // namespace signweave

@@ -7,7 +7,6 @@
 #include "signweave/database/catalogue.h"
 #include "signweave/database/database.h"
 #include "signweave/database/measure.h"
-#include "signweave/features/from_source.h"
 #include "signweave/features/transition_stats.h"
 #include "signweave/semantic_db/semantic_db.h"
 
@@ -247,19 +246,6 @@ std::shared_ptr<const RecordingJoins> Snapshot::joins(std::size_t recording) con
   }
   const std::lock_guard guard(database.mutex_);
   if (database.contents_ == contents_) database.joins_[recording] = made;
-  return made;
-}
-
-std::shared_ptr<const SignerModel> Snapshot::signer(const RecordingInfo& recording) const {
-  const Database& database = *database_;
-  if (recording.motion) {
-    const std::lock_guard guard(database.mutex_);
-    const auto at = database.signers_.find(recording.motion->generation);
-    if (database.contents_ == contents_ && at != database.signers_.end()) return at->second;
-  }
-  auto made = std::make_shared<const SignerModel>(model_of(*motion(recording), recording.rig));
-  const std::lock_guard guard(database.mutex_);
-  if (database.contents_ == contents_) database.signers_[recording.motion->generation] = made;
   return made;
 }
 

@@ -32,7 +32,7 @@ MotionClip LiveScore::clip_of(const Contents& contents, const Candidate& candida
   if (const std::optional<Side> hand = queue_.wanted_hand(place); hand || mirrored) {
     mark_mirrored(clip, {&hand, 1}, open_.snapshot(), notices);
     clip.front().mirrored = mirrored.value_or(clip.front().mirrored);
-    mirror_marked(clip, open_.snapshot().contents(), notices);
+    mirror_marked(clip, open_.snapshot(), notices);
   }
   clip.front().source = on_skeleton(info, clip.front().source);
   if (clip.front().source == own) clip.front().noise = open_.snapshot().joins(candidate.recording)->noise;

@@ -11,8 +11,24 @@ const TransitionMethod& method_of(const JunctionSettings& settings, const Placed
   return own != nullptr ? *own : *settings.method;
 }
 
-JunctionFiller::JunctionFiller(const JunctionSettings& settings)
-    : settings_(settings), guard_(*settings_.skeleton, settings_.rig->signer, settings_.rig->groups) {}
+namespace {
+
+constexpr GroupSet kLeft = {JointGroup::left_arm, JointGroup::left_fingers};
+
+/// An arm is kept out of the body and of the other hand. The right one comes second: it yields to the left one as that
+/// was corrected.
+GroupSet guards_for(GroupSet shown) noexcept {
+  if (shown.has(JointGroup::right_arm)) return GroupSet::all();
+  return shown.has(JointGroup::left_arm) ? kLeft : shown;
+}
+
+}  // namespace
+
+JunctionFiller::JunctionFiller(const JunctionSettings& settings, GroupSet shown)
+    : settings_(settings),
+      shown_(shown.within({JointGroup::left_arm, JointGroup::right_arm}).empty() ? shown : GroupSet::all()),
+      guarded_(guards_for(shown)),
+      guard_(*settings_.skeleton, settings_.rig->signer, settings_.rig->groups) {}
 
 std::int64_t JunctionFiller::shared(const PlacedClip& a, const PlacedClip& b) noexcept {
   return std::max<std::int64_t>(0, a.end() - b.begin());
@@ -36,13 +52,18 @@ void JunctionFiller::fill(const PlacedClip& a, const PlacedClip& b, const Transi
   for (std::size_t part = 0; part < (as_one ? 1 : kTimed); ++part) {
     const FrameRange gap{a.core_end() + cuts[part].retraction_frames, b.core - cuts[part].preparation_frames};
     if (gap.empty()) continue;
-    fill_gap(a, b, gap, as_one ? GroupSet::all() : groups_of(kAllTimed[part]), cuts[part], window, scratch.gap);
+    const GroupSet together = as_one ? GroupSet::all() : groups_of(kAllTimed[part]);
+    // Methods that look for similar captures compare all joints that they fill.
+    const bool looks_for_spans = method_of(settings_, b).fill->needs == Needs::spans;
+    const GroupSet groups = looks_for_spans ? together : together.within(shown_);
+    if (!groups.empty()) fill_gap(a, b, gap, groups, cuts[part], window, scratch.gap);
   }
   if (method_of(settings_, b).fill->offered != Offered::signing) return;  // shown uncorrected
   for (const Timed part : {Timed::left, Timed::right}) {
     const TransitionCut& cut = cuts[static_cast<std::size_t>(part)];
     const FrameRange made{a.core_end() + cut.kept_after(), b.core - cut.kept_before()};
-    if (!made.empty()) guard_.repair(gap_at(a, b, made, window), groups_of(part), window.poses(made));
+    const GroupSet guarded = groups_of(part).within(guarded_);
+    if (!made.empty() && !guarded.empty()) guard_.repair(gap_at(a, b, made, window), guarded, window.poses(made));
   }
 }
 

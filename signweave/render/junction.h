@@ -53,7 +53,8 @@ struct OutputWindow {
 /// Generates the frames of junctions.
 class JunctionFiller {
  public:
-  explicit JunctionFiller(const JunctionSettings& settings);
+  /// Only the joints of the `shown` groups are wanted; others may stay unfilled or uncorrected.
+  explicit JunctionFiller(const JunctionSettings& settings, GroupSet shown = GroupSet::all());
 
   /// Number of frames that b shares with a: for the whole body in a cross-fade, for different parts if each has its own
   /// cut.
@@ -85,6 +86,8 @@ class JunctionFiller {
                 OutputWindow window, GapScratch& scratch) const;
 
   JunctionSettings settings_;
+  GroupSet shown_;    ///< and what the guards of the shown joints look at
+  GroupSet guarded_;  ///< the same for guards
   BodyGuard guard_;
 };
 

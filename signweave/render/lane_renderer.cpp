@@ -18,9 +18,10 @@ GroupSet groups_of(Channel channel) noexcept {
       return {JointGroup::left_fingers};
     case Channel::right_fingers:
       return {JointGroup::right_fingers};
+    case Channel::head:
+      return {JointGroup::body};
     case Channel::body:
     case Channel::tracks:
-    case Channel::head:
       return {};
   }
   return {};
@@ -73,14 +74,22 @@ LaneRenderer::LaneRenderer(std::span<const LaneRun> runs, const JunctionSettings
       placer_.emplace(*settings.skeleton, settings.rig->signer, settings.rig->groups);
     }
     strands_.push_back(
-        {.run = &run, .renderer = std::make_unique<Renderer>(run.plan, settings, Renderer::Tracks::left_out)});
+        {.run = &run, .renderer = std::make_unique<Renderer>(run.plan, settings, groups_of(run.channel))});
   }
 }
 
 LaneRenderer::~LaneRenderer() = default;
 
-/// Corrects the places of a run's hand in frames into which its arm was copied from `shown_`.
-void LaneRenderer::correct(const LaneRun& run, FrameRange shown, OutputWindow window) {
+/// Frames of a strand, which stay until the next call.
+PosesView LaneRenderer::frames_of(Strand& strand, FrameRange shown) {
+  const FrameRange all = strand.run->frames;
+  if (strand.made) return view_of(*strand.made, {shown.begin - all.begin, shown.end - all.begin});
+  strand.renderer->render(shown, shown_);
+  return view_of(shown_, {0, shown.size()});
+}
+
+/// Corrects the places of a run's hand in frames into which its arm was copied from `source`.
+void LaneRenderer::correct(const LaneRun& run, FrameRange shown, const PosesView& source, OutputWindow window) {
   const std::optional<Side> side = side_of_arm(run.channel);
   if (!side || !placer_) return;
   for (std::size_t clip = 0; clip < run.places.size(); ++clip) {
@@ -92,7 +101,7 @@ void LaneRenderer::correct(const LaneRun& run, FrameRange shown, OutputWindow wi
     const HandPlace& place = *run.places[clip];
     const PlaceCorrection correction{
         .side = *side, .anchor = place.anchor, .kept_in = place.kept_in, .none = false, .out = place.out};
-    placer_->apply(correction, view_of(shown_, {0, shown.size()}), weights_, window.poses(shown));
+    placer_->apply(correction, source, weights_, window.poses(shown));
   }
 }
 
@@ -110,6 +119,7 @@ bool LaneRenderer::shows_same(const LaneRun& run, std::size_t clip, Channel othe
 std::vector<FoundPlace> LaneRenderer::find_places(ClipId first, const RenderBody& body) {
   std::vector<FoundPlace> found;
   if (!placer_) return found;
+  for (Strand& strand : strands_) strand.renderer->render(strand.run->frames, strand.made.emplace());
   Motion composed;
   for (std::size_t i = 0; i < strands_.size(); ++i) {
     const LaneRun& run = *strands_[i].run;
@@ -122,14 +132,13 @@ std::vector<FoundPlace> LaneRenderer::find_places(ClipId first, const RenderBody
       const FrameRange core{placed.core, placed.core_end()};
       body(core, composed);
       apply({composed, core.begin}, body);
-      strands_[i].renderer->render(core, shown_);
       const bool both = shows_same(run, clip, arm_channel(kSides[1 - slot]));
       const MotionClip& captured = *placed.captured;
       std::array<bool, 2> arms = {both, both};
       arms[slot] = true;
       auto corrections =
           placer_->corrections({.name = captured.signs.empty() ? captured.recording : captured.signs.front().gloss,
-                                .source = view_of(shown_, {0, core.size()}),
+                                .source = frames_of(strands_[i], core),
                                 .composed = view_of(composed, {0, core.size()}),
                                 .from_source = arms});
       std::optional<PlaceCorrection>& own = corrections[slot];
@@ -142,7 +151,7 @@ std::vector<FoundPlace> LaneRenderer::find_places(ClipId first, const RenderBody
 LaneRenderer::Joints LaneRenderer::joints_of(Channel channel) const {
   const Skeleton& skeleton = *settings_.skeleton;
   const JointGroups& groups = settings_.rig->groups;
-  const GroupSet wanted = groups_of(channel);
+  const GroupSet wanted = channel == Channel::head ? GroupSet() : groups_of(channel);
   const std::vector<bool> head =
       channel == Channel::head ? joints_of_head(skeleton, *settings_.rig) : std::vector<bool>(skeleton.joint_count());
   Joints joints;
@@ -202,14 +211,14 @@ void LaneRenderer::apply(std::size_t strands, OutputWindow window, const RenderB
     const Joints& channel = joints(i);
     const FrameRange shown = inside(now.run->frames, window.frames());
     if (!shown.empty()) {
-      now.renderer->render(shown, shown_);
+      const PosesView source = frames_of(now, shown);
       for (std::int64_t frame = shown.begin; frame < shown.end; ++frame) {
-        const MutablePoseView from = shown_.pose(frame - shown.begin);
+        const PoseView from = source.pose(frame - shown.begin);
         const MutablePoseView to = window.pose(frame);
         for (const std::size_t joint : channel.rotations) to.rotations[joint] = from.rotations[joint];
         for (const std::size_t moved : channel.translations) to.translations[moved] = from.translations[moved];
       }
-      correct(*now.run, shown, window);
+      correct(*now.run, shown, source, window);
       for (std::int64_t frame = shown.begin; frame < shown.end; ++frame) {
         negate(channel.rotations, *now.turned, window.pose(frame));
       }

@@ -43,13 +43,15 @@ class LaneRenderer {
   struct Strand {
     const LaneRun* run = nullptr;
     std::unique_ptr<Renderer> renderer;
+    std::optional<Motion> made = {};         ///< all frames of the run, once find_places needed them
     std::optional<JointSigns> turned = {};   ///< its own joints that are negated; none: not known yet
     std::optional<JointSigns> flipped = {};  ///< joints of its parent that are negated after it, until the next run
   };
   Joints joints_of(Channel channel) const;
   void apply(std::size_t strands, OutputWindow window, const RenderBody& body);
+  PosesView frames_of(Strand& strand, FrameRange shown);
   void find_signs(std::size_t strand, const RenderBody& body);
-  void correct(const LaneRun& run, FrameRange shown, OutputWindow window);
+  void correct(const LaneRun& run, FrameRange shown, const PosesView& source, OutputWindow window);
   bool shows_same(const LaneRun& run, std::size_t clip, Channel other) const noexcept;
   const Joints& joints(std::size_t strand) const noexcept {
     return joints_[static_cast<std::size_t>(strands_[strand].run->channel)];

@@ -11,7 +11,6 @@
 
 #include "signweave/motion/blend.h"
 #include "signweave/transition/fade.h"
-#include "signweave/transition/wrist_limits.h"
 
 namespace signweave {
 namespace {
@@ -66,8 +65,10 @@ float beyond_limits(const WristBend& bend, const WristBend& captured) {
                    bend.deviation - limits.radial.most, -bend.deviation - limits.ulnar.most});
 }
 
-WristBend bend_in(const HandMeter& meter, const ArmJoints& arm, Side side) {
-  const Vector3f forearm = meter.pose().positions[at(arm.wrist)] - meter.pose().positions[at(arm.elbow)];
+/// The bend of a wrist in a pose that the meter has seen.
+WristBend bend_in(const HandMeter& meter, const ModelPose& pose, const ArmJoints& arm, Side side) {
+  if (!meter.has_fingers(side)) return {};
+  const Vector3f forearm = pose.positions[at(arm.wrist)] - pose.positions[at(arm.elbow)];
   return wrist_bend(forearm.normalized(), meter.axes(side));
 }
 
@@ -86,21 +87,37 @@ ArmPlacer::ArmPlacer(const Skeleton& skeleton, const SignerModel& signer, const 
     : skeleton_(&skeleton), meter_(skeleton, signer), source_meter_(skeleton, signer), pose_(skeleton) {
   if (!signer.body || signer.body->trunk == kNoJoint) return;
   spaces_ = AnchorSpaces(signer);
+  for (const Side side : kSides) add_arm(side, signer, groups);
+}
+
+void ArmPlacer::add_arm(Side side, const SignerModel& signer, const JointGroups& groups) {
   const RigMap& rig = signer.rig;
-  for (const Side side : kSides) {
-    const JointIndex wrist = groups.wrists[at(side)];
-    const PartPlace& shoulder = rig[of(side, Part::left_upper_arm)];
-    const PartPlace& elbow = rig[of(side, Part::left_forearm)];
-    if (wrist == kNoJoint || !shoulder.known() || !elbow.known()) continue;
-    if (!is_above(skeleton, signer.body->trunk, shoulder.joint)) continue;
-    if (!is_above(skeleton, shoulder.joint, elbow.joint) || !is_above(skeleton, elbow.joint, wrist)) continue;
-    std::vector<JointIndex> joints{wrist, signer.body->trunk, rig[Part::left_upper_arm].joint,
-                                   rig[Part::right_upper_arm].joint};
-    if (rig.has(Part::head)) joints.push_back(rig[Part::head].joint);
-    arms_[at(side)] = {.joints = {shoulder.joint, elbow.joint, wrist},
-                       .with_anchors = JointChains(skeleton, joints),
-                       .below_shoulder = JointChains(skeleton, std::array{wrist}, shoulder.joint)};
+  const JointIndex trunk = signer.body->trunk;
+  const JointIndex wrist = groups.wrists[at(side)];
+  const PartPlace& shoulder = rig[of(side, Part::left_upper_arm)];
+  const PartPlace& elbow = rig[of(side, Part::left_forearm)];
+  if (wrist == kNoJoint || !shoulder.known() || !elbow.known()) return;
+  if (!is_above(*skeleton_, trunk, shoulder.joint)) return;
+  if (!is_above(*skeleton_, shoulder.joint, elbow.joint) || !is_above(*skeleton_, elbow.joint, wrist)) return;
+  std::vector<JointIndex> joints{wrist, trunk, rig[Part::left_upper_arm].joint, rig[Part::right_upper_arm].joint};
+  if (rig.has(Part::head)) joints.push_back(rig[Part::head].joint);
+  Arm& arm = arms_[at(side)];
+  arm = {.joints = {shoulder.joint, elbow.joint, wrist},
+         .with_anchors = JointChains(*skeleton_, joints),
+         .with_body = {},
+         .with_hand = {},
+         .below_shoulder = JointChains(*skeleton_, std::array{wrist}, shoulder.joint),
+         .hand_below_shoulder = {}};
+  if (!meter_.has(side)) return;
+  std::vector<JointIndex> with_body = joints;
+  std::vector<JointIndex> below;
+  for (const JointIndex joint : meter_.joints(side)) {
+    (is_above(*skeleton_, shoulder.joint, joint) ? below : with_body).push_back(joint);
   }
+  arm.with_body = JointChains(*skeleton_, with_body);
+  arm.hand_below_shoulder = JointChains(*skeleton_, below, shoulder.joint);
+  with_body.insert(with_body.end(), below.begin(), below.end());
+  arm.with_hand = JointChains(*skeleton_, with_body);
 }
 
 /// The source's arm is turned as a whole with its anchor, so that the elbow keeps its swivel, and hung on the target's
@@ -110,8 +127,6 @@ ArmPlacer::Placed ArmPlacer::place(const PlaceCorrection& correction, PoseView s
   const Arm& of = arm(correction.side);
   const auto [shoulder, elbow, wrist] = of.joints;
   const std::array joints = {shoulder, elbow, wrist};
-  of.with_anchors.to_model_space(source, source_);
-  of.with_anchors.to_model_space(pose, target_);
   const AnchorMotion anchor = spaces_.between(correction.kept_in, source_, target_);
   const Vector3f goal = anchor.target_from_source * source_.positions[at(wrist)] + anchor.target_turn * correction.out;
   Placed placed{.space_turn = anchor.target_turn,
@@ -147,6 +162,16 @@ ArmPlacer::Placed ArmPlacer::place(const PlaceCorrection& correction, PoseView s
   return placed;
 }
 
+/// Leaves the frame's joints in source_.
+ArmPlacer::SourceHand ArmPlacer::look_at_source(PoseView pose, Side side) {
+  const ArmJoints& joints = arm(side).joints;
+  arm(side).with_hand.to_model_space(pose, source_);
+  source_meter_.look(source_, side);
+  const Quaternionf& hand = source_.rotations[at(joints.wrist)];
+  return {.palm = hand.conjugate() * (source_meter_.palm(side) - source_.positions[at(joints.wrist)]),
+          .bend = bend_in(source_meter_, source_, joints, side)};
+}
+
 /// Puts the arm on every frame of the stroke, and leaves its palms in `palms_`.
 ArmPlacer::Fit ArmPlacer::fit(const ComposedStroke& stroke, const PlaceCorrection& correction,
                               const HandDepths& captured) {
@@ -154,19 +179,23 @@ ArmPlacer::Fit ArmPlacer::fit(const ComposedStroke& stroke, const PlaceCorrectio
   const ArmJoints& joints = arm(side).joints;
   Fit fit{.bent = -1, .too_deep = -1};
   palms_.clear();
+  SourceHand hand;
   for (std::int64_t frame = 0; frame < stroke.source.frames; ++frame) {
+    const PoseView source = stroke.source.pose(frame);
     const PoseView composed = stroke.composed.pose(frame);
     std::ranges::copy(composed.rotations, pose_.rotations.begin());
     std::ranges::copy(composed.translations, pose_.translations.begin());
-    const Placed placed = place(correction, stroke.source.pose(frame), 1, pose_.view());
+    if (!is_held(stroke.source, frame)) hand = look_at_source(source, side);
+    arm(side).with_body.to_model_space(composed, target_);
+    const Placed placed = place(correction, source, 1, pose_.view());
     if (std::abs(placed.missed) > std::abs(fit.missed)) fit.missed = placed.missed;
 
-    source_meter_.look(stroke.source.pose(frame));
-    meter_.look(std::as_const(pose_).view());
+    arm(side).hand_below_shoulder.continue_below_top(std::as_const(pose_).view(), target_);
+    meter_.look(target_, side);
     if (meter_.has_fingers(side)) {
-      fit.bent = std::max(fit.bent, beyond_limits(bend_in(meter_, joints, side), bend_in(source_meter_, joints, side)));
+      fit.bent = std::max(fit.bent, beyond_limits(bend_in(meter_, target_, joints, side), hand.bend));
     }
-    for (const Obstacle obstacle : {Obstacle::left_trunk, Obstacle::right_trunk, Obstacle::head}) {
+    for (const Obstacle obstacle : kBodyObstacles) {
       const Approach near = meter_.to(side, obstacle);
       const float allowed = std::max(captured[static_cast<std::size_t>(obstacle)], 0.0f) + kDepthOfHandAllowed;
       if (-near.clearance - allowed <= fit.too_deep) continue;
@@ -176,12 +205,9 @@ ArmPlacer::Fit ArmPlacer::fit(const ComposedStroke& stroke, const PlaceCorrectio
     }
 
     const SignerSpace space = spaces_.space_with_shoulders_of(source_, target_);
-    const Quaternionf& hand = source_meter_.pose().rotations[at(joints.wrist)];
-    const Vector3f palm =
-        hand.conjugate() * (source_meter_.palm(side) - source_meter_.pose().positions[at(joints.wrist)]);
     const Quaternionf turn = placed.corrected.turn * placed.copied.turn.conjugate();
-    palms_.push_back({space.turn_to_signer(placed.copied * palm - space.origin),
-                      space.turn_to_signer(placed.corrected * palm - space.origin),
+    palms_.push_back({space.turn_to_signer(placed.copied * hand.palm - space.origin),
+                      space.turn_to_signer(placed.corrected * hand.palm - space.origin),
                       space.model_from_signer.conjugate() * turn * space.model_from_signer});
   }
   return fit;
@@ -290,13 +316,18 @@ void ArmPlacer::apply(const PlaceCorrection& correction, PosesView source, std::
                       MutablePoses composed) {
   assert(static_cast<std::size_t>(source.frames) == weights.size());
   if (!has(correction.side)) return;
-  const auto [shoulder, elbow, wrist] = arm(correction.side).joints;
+  const Arm& of = arm(correction.side);
+  const auto [shoulder, elbow, wrist] = of.joints;
+  bool has_seen = false;  // the frame before
   for (std::int64_t frame = 0; frame < source.frames; ++frame) {
     const float weight = std::min(weights[static_cast<std::size_t>(frame)], 1.0f);
+    const bool seen_before = std::exchange(has_seen, weight > 0);
     if (!(weight > 0)) continue;
     const MutablePoseView pose = pose_at(*skeleton_, composed, frame);
     const PoseView captured = source.pose(frame);
     if (!correction.none) {
+      if (!seen_before || !is_held(source, frame)) of.with_anchors.to_model_space(captured, source_);
+      of.with_anchors.to_model_space(pose, target_);
       place(correction, captured, weight, pose);
       continue;
     }

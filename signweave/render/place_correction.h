@@ -15,6 +15,7 @@
 #include "signweave/transition/arm_reach.h"
 #include "signweave/transition/gap.h"
 #include "signweave/transition/joint_groups.h"
+#include "signweave/transition/wrist_limits.h"
 
 namespace signweave {
 
@@ -94,7 +95,10 @@ class ArmPlacer {
   struct Arm {
     ArmJoints joints;
     JointChains with_anchors;    ///< the wrist, both shoulders, head and trunk, with their ancestors
+    JointChains with_body;       ///< these and what a HandMeter reads, but only the arm below the shoulder
+    JointChains with_hand;       ///< and the hand
     JointChains below_shoulder;  ///< down to the wrist
+    JointChains hand_below_shoulder;
   };
   /// One arm in one frame.
   struct Placed {
@@ -103,6 +107,12 @@ class ArmPlacer {
     RigidMotion copied, corrected;  ///< model from the wrist's joint
   };
   struct Fit;
+  /// The hand in a frame of the source.
+  struct SourceHand {
+    Eigen::Vector3f palm = Eigen::Vector3f::Zero();  ///< in the space of the wrist's joint
+    WristBend bend;
+  };
+  SourceHand look_at_source(PoseView pose, Side side);
   /// The palm at one frame of a stroke: signer-centred, metres.
   struct Palm {
     Eigen::Vector3f copied, corrected;
@@ -110,6 +120,8 @@ class ArmPlacer {
   };
 
   const Arm& arm(Side side) const noexcept { return arms_[static_cast<std::size_t>(side)]; }
+  void add_arm(Side side, const SignerModel& signer, const JointGroups& groups);
+  /// Precondition: source_ and target_ hold the joints with_anchors of both poses.
   Placed place(const PlaceCorrection& correction, PoseView source, float weight, MutablePoseView pose);
   Fit fit(const ComposedStroke& stroke, const PlaceCorrection& correction, const HandDepths& captured);
   /// Finds `out` for arms that keep to each other, and the sizes.

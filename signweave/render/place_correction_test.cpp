@@ -418,7 +418,7 @@ RC_GTEST_PROP(PlaceCorrection, OnAnyTrunkTheLimitsHoldOrAReasonIsGiven, ()) {
     }
     const HandDepths before = placer.meter().deepest(kPerson.all_of(source), side);
     const HandDepths after = placer.meter().deepest(kPerson.all_of(made), side);
-    for (std::size_t i = 0; i + 1 < kObstacles; ++i) {
+    for (std::size_t i = 0; i < before.size(); ++i) {
       RC_ASSERT(after[i] < std::max(before[i], 0.0f) + kDepthOfHandAllowed + 1e-4f);
     }
   }

@@ -145,6 +145,11 @@ Renderer::Renderer(Plan plan, const JunctionSettings& settings, Tracks tracks)
   if (!plan_.runs.empty()) lanes_ = std::make_unique<LaneRenderer>(plan_.runs, settings_);
 }
 
+Renderer::Renderer(Plan plan, const JunctionSettings& settings, GroupSet shown)
+    : plan_(std::move(plan)), settings_(settings), filler_(settings, shown) {
+  if (!plan_.runs.empty()) lanes_ = std::make_unique<LaneRenderer>(plan_.runs, settings_);
+}
+
 Renderer::~Renderer() = default;
 Renderer::Renderer(Renderer&&) noexcept = default;
 
@@ -244,6 +249,17 @@ std::vector<FoundPlace> Renderer::find_places(ClipId first) {
   return lanes_->find_places(first, [&](FrameRange frames, Motion& out) { render_body(frames, out); });
 }
 
+void Renderer::take_places(const Score& score) {
+  for (LaneRun& run : plan_.runs) {
+    for (const Item& item : lane_of(score, run.channel)->items) {
+      const auto* const use = std::get_if<ClipUse>(&item.what);
+      if (use == nullptr) continue;
+      const auto clip = std::ranges::find(run.clips, use->clip);
+      if (clip != run.clips.end()) run.places[static_cast<std::size_t>(clip - run.clips.begin())] = use->place;
+    }
+  }
+}
+
 void Renderer::render_fetched(Motion& out, std::vector<ScalarTrack> used) {
   join_section({.first = 0, .last = plan_.placed.size() - 1, .frames = {0, plan_.frames}}, {out}, std::move(used));
   show_over({out});
@@ -278,9 +294,8 @@ void render(Score score, const std::vector<MotionClip>& clips, const JunctionSet
   render(std::move(score), renderer, clips, std::nullopt, out);
 }
 
-void render_over_body(Score score, const std::vector<MotionClip>& clips, const JunctionSettings& settings,
-                      Synthesis& out) {
-  Renderer renderer(plan_of(score, clips), settings);
+void render_over_body(Score score, Renderer& renderer, const std::vector<MotionClip>& clips, Synthesis& out) {
+  renderer.take_places(score);
   renderer.show_over(out.motion);
   describe(std::move(score), renderer.plan(), clips, out);
 }

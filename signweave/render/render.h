@@ -29,6 +29,8 @@ class Renderer {
   enum class Tracks { shown, left_out };
   /// Everything that the settings and the plan's clips point to must outlive it.
   Renderer(Plan plan, const JunctionSettings& settings, Tracks tracks = Tracks::shown);
+  /// The same for the joints of some groups: others are undefined. Without tracks.
+  Renderer(Plan plan, const JunctionSettings& settings, GroupSet shown);
   ~Renderer();
   Renderer(Renderer&&) noexcept;
 
@@ -45,6 +47,8 @@ class Renderer {
   std::vector<FoundPlace> find_places(ClipId first, Motion& body);
   /// The same without rendering all frames first: for a score of which little is new.
   std::vector<FoundPlace> find_places(ClipId first);
+  /// Keeps hands at the places that the score of this plan has now, after find_places.
+  void take_places(const Score& score);
   /// Shows what lanes and curves add over all frames of the whole body.
   void show_over(Motion& body) { show_over(OutputWindow{body}); }
   /// Renders all frames, after `fetch` has put the captured ones into `out` and returned `used`.
@@ -82,9 +86,9 @@ std::vector<ScalarTrack> fetch(const Plan& plan, const JunctionSettings& setting
 /// and declarations. Makes no choices. The memory of `out` is reused. Throws Error{bad_input} as plan_of,
 /// Error{corrupt}.
 void render(Score score, const std::vector<MotionClip>& clips, const JunctionSettings& settings, Synthesis& out);
-/// The same if `out.motion` already shows the whole body, see Renderer::find_places.
-void render_over_body(Score score, const std::vector<MotionClip>& clips, const JunctionSettings& settings,
-                      Synthesis& out);
+/// The same with the renderer of the score's plan if `out.motion` already shows the whole body, see
+/// Renderer::find_places.
+void render_over_body(Score score, Renderer& renderer, const std::vector<MotionClip>& clips, Synthesis& out);
 /// The same with the renderer of the score's plan. `fetched` is the result of `fetch` if it has already read the
 /// captured frames into `out`.
 void render(Score score, Renderer& renderer, const std::vector<MotionClip>& clips,

@@ -245,7 +245,12 @@ bool BodyGuard::repair(const Gap& gap, GroupSet groups, MutablePoses made) {
   bool begun = false;
   bool bent = false;
   for (const Side side : kSides) {
-    if (!scene_.has(side) || !groups.has(arm_of(side))) continue;
+    if (!scene_.has(side)) continue;
+    if (!groups.has(arm_of(side))) {
+      FingerGuard& fingers = fingers_[static_cast<std::size_t>(side)];
+      if (groups.has(fingers_of(side)) && fingers.known()) bent |= fingers.repair(gap, made);
+      continue;
+    }
     if (!std::exchange(begun, true)) scene_.begin(gap, made);
     if (!repair_arm(gap, side, groups.has(fingers_of(side)), made)) continue;
     scene_.changed(side);

@@ -33,7 +33,7 @@ class BodyGuard {
   ///   limits of its wrist. This repeats until no frame is too deep, at most kRounds times; the round whose deepest
   ///   frame is least deep is used. A hand is moved at most a hand's breadth out of the other one. If some frame is
   ///   still too deep, as many further rounds consider the hand against head and trunk only.
-  /// - Crossing fingers are bent apart (see FingerGuard).
+  /// - Crossing fingers are bent apart (see FingerGuard), also those of a hand whose arm is not in `groups`.
   ///
   /// Not every frame is examined. Frames between two examined ones are skipped if the arm moves less than its clearance
   /// at both of them, or too little to pass through anything in between.

@@ -53,6 +53,15 @@ class StepWindow {
   const std::vector<MotionClip>& clips() const noexcept { return clips_; }
   const std::vector<std::shared_ptr<LiveClip>>& live() const noexcept { return live_; }
 
+  /// Moves the new clips to where the signer stands.
+  void stand(TransitionBuilder& builder) {
+    for (std::size_t i = 0; i < live_.size(); ++i) {
+      if (before_.fixed[i]) continue;
+      builder.place_first(*live_[i]);
+      before_.placed[i].standing = live_[i]->placed.standing;
+    }
+  }
+
   Score compose(const JunctionSettings& settings, const ConcatenateOptions& options) const {
     return compose_after(before_, clips_, body_, parts_, settings, options);
   }
@@ -95,8 +104,10 @@ class StepWindow {
   MadeStep made_of(const Score& score, std::int64_t begin, std::shared_ptr<const Motion> frames) const {
     MadeStep made{.frames = std::move(frames), .clips = {}, .lanes = {}};
     for (const Clip& clip : score.clips) {
-      made.clips.push_back(
-          {.to_core = base_ + clip.at.begin - begin, .step = clip.step, .core_frames = clip.at.size()});
+      made.clips.push_back({.to_core = base_ + clip.at.begin - begin,
+                            .step = clip.step,
+                            .core_frames = clip.at.size(),
+                            .standing = clip.standing});
     }
     const std::vector<ChannelChain> chains = channel_chains(parts_, clips_, body_, before_.starts, before_.known_parts);
     for (const Channel channel : kAllChannels) {
@@ -124,11 +135,10 @@ class StepWindow {
       if (before_.fixed[i]) continue;
       PlacedClip& placed = live_[i]->placed;
       if (at.step != placed.step || at.core_frames != placed.core_frames) {  // it fills another clip
-        const std::optional<GroundTransform> standing = placed.standing;
         placed = placed_by_step(live_[i]->captured, at.step);
         placed.core_frames = at.core_frames;
-        placed.standing = standing;
       }
+      placed.standing = at.standing;
       placed.core = begin + at.to_core;
     }
     for (std::size_t channel = 0; channel < made.lanes.size(); ++channel) {
@@ -263,10 +273,10 @@ std::size_t held_bytes(const MadeStep& made) noexcept {
          links * sizeof(MadeStep::Link);
 }
 
-LaneStep make_step(const ClipChain& chain, std::int64_t begin, const StepClips& clips, const StreamSetup& setup,
-                   double tempo, StepCache& cache) {
+LaneStep make_step(const ClipChain& chain, std::int64_t begin, const StepClips& clips, StreamSetup& setup, double tempo,
+                   StepCache& cache) {
   const JunctionSettings& settings = setup.builder->settings();
-  const StepWindow window(chain, begin, clips);
+  StepWindow window(chain, begin, clips);
   const auto with_clips = [&](const MadeStep& made) {
     LaneStep step = window.step_of(made, begin);
     step.clips = clips;
@@ -277,6 +287,7 @@ LaneStep make_step(const ClipChain& chain, std::int64_t begin, const StepClips& 
   if (!key.empty()) {
     if (const std::shared_ptr<const MadeStep> made = cache.find(key)) return with_clips(*made);
   }
+  window.stand(*setup.builder);
   const Score score = window.compose(
       settings,
       {.fit = setup.fit.get(), .tempo = tempo, .most_frames = std::numeric_limits<std::int64_t>::max(), .author = {}});

@@ -48,10 +48,10 @@ StepClips without_tail(StepClips clips, bool had_tail);
 
 /// Places the clips after those of a chain, of which frames before `begin` are decided, and makes the frames from there
 /// to the end of the last core; to the last retraction if channels differ there; or to the rest. The clips must be
-/// placed as signs (TransitionBuilder::place_sign, place_first). The cost depends on the new clips only; steps whose
+/// placed as signs (TransitionBuilder::place_sign). The cost depends on the new clips only; steps whose
 /// clips all have a key are cached. Throws what `compose_after` throws, Error{bad_input} for more than kMostMade
 /// frames.
-LaneStep make_step(const ClipChain& chain, std::int64_t begin, const StepClips& clips, const StreamSetup& setup,
-                   double tempo, StepCache& cache);
+LaneStep make_step(const ClipChain& chain, std::int64_t begin, const StepClips& clips, StreamSetup& setup, double tempo,
+                   StepCache& cache);
 
 }  // namespace signweave

@@ -247,6 +247,7 @@ void LiveScore::reopen(std::int64_t next, const FrameRing& shown) {
 void LiveScore::forget_places() {
   const std::size_t count = queue_.forget();
   if (count == 0) return;
+  parts_.clear();
   std::erase_if(entries_, [&](const Entry& entry) { return entry.first < count; });
   for (Entry& entry : entries_) {
     entry.first -= count;
@@ -264,6 +265,7 @@ void LiveScore::replace(const Utterance& utterance, std::int64_t next, const Fra
   queue_.check(utterance, false);
   const bool finished = finish_sign(next, shown);
   queue_.replace(utterance);
+  parts_.clear();
   entries_.clear();
   last_round_.clear();
   authored_.clear();

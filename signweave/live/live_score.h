@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "signweave/choose/part_choice.h"
 #include "signweave/core/prefetch.h"
 #include "signweave/live/clip_chain.h"
 #include "signweave/live/frame_ring.h"
@@ -117,6 +118,13 @@ class LiveScore {
     AuthoredCurve curve;
     bool goes_on = false;  ///< its end is not known yet
   };
+  /// The tokens that parts of some places sign.
+  struct PartsOfPlaces {
+    std::shared_ptr<const Contents> contents;
+    bool after_sign = false;  ///< chosen with regard to the place before
+    std::vector<PartChoice> choices;
+    std::vector<ChosenPart> chosen;  ///< points to `choices`
+  };
   /// The last signed clip; the rest may follow it.
   struct LastSign {
     ClipPtr clip;                    ///< null: none
@@ -146,6 +154,7 @@ class LiveScore {
   // live_score_channels.cpp
   void sign_in_channels(std::size_t first);
   std::vector<Entry> clips_of_places(std::size_t first, std::size_t last, StepClips& clips, Candidate& signs);
+  const std::vector<ChosenPart>& chosen_parts(std::size_t first, std::size_t last, bool after_sign);
   void add_parts(std::size_t first, std::size_t last, const std::vector<Entry>& placed, StepClips& clips);
   void add_holds(std::size_t first, std::size_t last, const std::vector<Entry>& placed, StepClips& clips) const;
   void extend_tail(std::int64_t end);
@@ -188,12 +197,13 @@ class LiveScore {
   State state_ = State::nothing;
   ClipChain chain_;  ///< ends with the tail; empty in State::nothing
   LastSign last_sign_;
-  StepPtr step_;                           ///< the last one, if the timeline ends with it
-  std::vector<Entry> entries_;             ///< of this utterance, or of this round of a loop
-  std::vector<Entry> last_round_;          ///< of the previous round
-  std::vector<Authored> authored_;         ///< of this utterance, or of this round
-  std::vector<Authored> authored_before_;  ///< of the previous round
-  LiveCurves curves_;                      ///< over the timeline's frames
+  StepPtr step_;                                ///< the last one, if the timeline ends with it
+  std::map<std::size_t, PartsOfPlaces> parts_;  ///< by the first of their places
+  std::vector<Entry> entries_;                  ///< of this utterance, or of this round of a loop
+  std::vector<Entry> last_round_;               ///< of the previous round
+  std::vector<Authored> authored_;              ///< of this utterance, or of this round
+  std::vector<Authored> authored_before_;       ///< of the previous round
+  LiveCurves curves_;                           ///< over the timeline's frames
   std::int64_t changed_from_ = std::numeric_limits<std::int64_t>::max();
   Timeline timeline_;
   std::deque<PlayerEvent> events_;  ///< `frame` counts the timeline's frames

@@ -64,29 +64,37 @@ std::vector<LiveScore::Entry> LiveScore::clips_of_places(std::size_t first, std:
   return placed;
 }
 
-void LiveScore::add_parts(std::size_t first, std::size_t last, const std::vector<Entry>& placed, StepClips& clips) {
-  const std::size_t before = first > 0 && tail_is_last_sign() && queue_.is_decided(first - 1) ? 1 : 0;
-  Utterance utterance = queue_.part(first - before, last);
-  if (before > 0) utterance.places.front().parts.clear();
+/// The tokens of the parts of some places. They are chosen once.
+const std::vector<ChosenPart>& LiveScore::chosen_parts(std::size_t first, std::size_t last, bool after_sign) {
   const Snapshot& snapshot = open_.snapshot();
-  const std::vector<PartChoice> parts = part_choices(snapshot.contents(), utterance, queue_.dominant(first));
-  if (parts.empty()) return;
+  PartsOfPlaces& known = parts_[first];
+  if (known.contents == snapshot.shared_contents() && known.after_sign == after_sign) return known.chosen;
+  Utterance utterance = queue_.part(after_sign ? first - 1 : first, last);
+  if (after_sign) utterance.places.front().parts.clear();
+  known = {.choices = part_choices(snapshot.contents(), utterance, queue_.dominant(first)), .chosen = {}};
   std::vector<const Candidate*> chosen;
-  std::vector<std::size_t> clip_of_place;  // see StepClips::parts
-  const std::size_t tails = chain_.empty() ? 0 : 1;
-  if (before > 0) {
-    chosen.push_back(&queue_.chosen(first - 1));
-    clip_of_place.push_back(0);
-  }
-  for (std::size_t i = 0; i < placed.size(); ++i) {
-    for (std::size_t place = placed[i].first; place <= placed[i].last; ++place) {
-      chosen.push_back(&queue_.chosen(place));
-      clip_of_place.push_back(tails + i);
-    }
+  for (std::size_t place = after_sign ? first - 1 : first; place <= last; ++place) {
+    chosen.push_back(&queue_.chosen(place));
   }
   const Seconds transition = cache_.durations(snapshot.shared_contents(), options_.synthesis.duration)->mean;
-  const std::vector<ChosenPart> found =
-      choose_parts(snapshot, parts, chosen, std::vector<Choice>(chosen.size()), {.transition = transition});
+  known.chosen =
+      choose_parts(snapshot, known.choices, chosen, std::vector<Choice>(chosen.size()), {.transition = transition});
+  known.contents = snapshot.shared_contents();  // now it is known
+  known.after_sign = after_sign;
+  return known.chosen;
+}
+
+void LiveScore::add_parts(std::size_t first, std::size_t last, const std::vector<Entry>& placed, StepClips& clips) {
+  const bool after_sign = first > 0 && tail_is_last_sign() && queue_.is_decided(first - 1);
+  const std::size_t before = after_sign ? 1 : 0;
+  const Snapshot& snapshot = open_.snapshot();
+  const std::vector<ChosenPart>& found = chosen_parts(first, last, after_sign);
+  if (found.empty()) return;
+  std::vector<std::size_t> clip_of_place(before, 0);  // see StepClips::parts
+  const std::size_t tails = chain_.empty() ? 0 : 1;
+  for (std::size_t i = 0; i < placed.size(); ++i) {
+    clip_of_place.insert(clip_of_place.end(), placed[i].last - placed[i].first + 1, tails + i);
+  }
   for (const ChosenPart& part : found) {
     auto clip = std::make_shared<LiveClip>();
     const std::size_t place = first - before + part.part->place;
@@ -154,7 +162,6 @@ LiveScore::StepPtr LiveScore::take_step(const StepClips& clips) {
       if (clips.rests) continue;
       clip->key = key_of(clip->captured);
       setup_->builder->place_sign(*clip);
-      setup_->builder->place_first(*clip);
     }
   }
   auto step = std::make_shared<const LaneStep>(

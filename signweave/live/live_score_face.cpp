@@ -61,10 +61,10 @@ void LiveScore::author(std::int64_t from) {
       curves_.add(std::move(curve));
     }
     for (const Notice& notice : notices) {
-      events_.push_back({.kind = PlayerEvent::Kind::notice,
-                         .frame = static_cast<std::uint64_t>(from),
-                         .place = one.first,
-                         .text = notice.text});
+      const auto frame = static_cast<std::uint64_t>(from);
+      const auto after = std::ranges::upper_bound(events_, frame, {}, &PlayerEvent::frame);
+      events_.insert(after,
+                     {.kind = PlayerEvent::Kind::notice, .frame = frame, .place = one.first, .text = notice.text});
     }
   }
 }

@@ -25,11 +25,11 @@ struct LivingRestOptions {
 };
 
 /// A signer at rest who breathes, sways slightly and blinks, indefinitely. Each frame is a function of its number
-/// alone, bit for bit. It begins with the rest pose for kRestStill; then movement fades in over kRestEase. Trunk, shoulders and head rotate
-/// about the signer's axes, derived from the rig and the rest pose. Legs stand still, arms keep hanging as they are,
-/// and the head keeps its gaze except for a drift of about a degree. Joints missing from the rig map do not move; if
-/// the map does not distinguish left and right, nothing moves. Reading does not allocate or throw. Several threads may
-/// read concurrently.
+/// alone, bit for bit. It begins with the rest pose for kRestStill; then movement fades in over kRestEase. Trunk,
+/// shoulders and head rotate about the signer's axes, derived from the rig and the rest pose. Legs stand still, arms
+/// keep hanging as they are, and the head keeps its gaze except for a drift of about a degree. Joints missing from the
+/// rig map do not move; if the map does not distinguish left and right, nothing moves. Reading does not allocate or
+/// throw. Several threads may read concurrently.
 class LivingRest final : public MotionSource {
  public:
   /// `rig`, `rest` and `tracks` (the names of its values) must match the skeleton. The tracks eyeBlinkLeft and

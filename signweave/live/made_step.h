@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "signweave/live/made_cache.h"
+#include "signweave/motion/blend.h"
 #include "signweave/score/score.h"
 
 /// Internal to this module.
@@ -20,6 +21,7 @@ struct MadeStep {
     std::int64_t to_core = 0;
     double step = 1;
     std::int64_t core_frames = 1;
+    std::optional<GroundTransform> standing = {};
   };
   struct Link {
     std::size_t clip = 0;

@@ -158,6 +158,44 @@ TEST(ChannelsTest, TheWeakHandSignsAnotherGlossAndHolds) {
   EXPECT_EQ(chain[1].clip, 3u);
 }
 
+TEST(ChannelsTest, AHandRestsWhileTheOtherSignsAndNothingWaits) {
+  const Utterance plain{
+      .places = {place_of({"BROUILLARD"}), place_of({"MATIN"}), place_of({"PLUIE"}), place_of({"NUAGES"})}};
+  Utterance utterance = plain;
+  utterance.places[1].parts = {
+      {.part = BodyPart::weak, .signs = {{.sign = {}, .sync = {}, .rest = true}}, .places = 2}};
+  const Synthesized made = synthesize(corpus(), utterance);
+  const Score& score = made.result.score;
+  const LaneChain chain = chain_of(*lane_of(score, Channel::left));
+  ASSERT_EQ(chain.size(), 3u);
+  const Clip& rest = score.clips[chain[1].clip];
+  EXPECT_TRUE(rest.at_rest);
+  EXPECT_GE(rest.at.begin, score.clips[0].at.end);
+  EXPECT_GT(chain[1].held, 0);
+  const Score before = synthesize(corpus(), plain).result.score;
+  for (std::size_t i = 0; i < 4; ++i) EXPECT_EQ(score.clips[i].at, before.clips[i].at) << i;
+  // Low, from when it arrives until it is needed.
+  const Snapshot snapshot = corpus().snapshot();
+  const SignerModel& signer = *snapshot.signer(snapshot.contents().at("meteo"));
+  const float hips = signer.body->heights[static_cast<std::size_t>(Height::waist)];
+  const auto low = [&](std::int64_t frame) {
+    const HandMotion hands = measure_hands(made.result.motion, signer, {frame, frame + 1});
+    return hands.hands[static_cast<std::size_t>(Side::left)].frames[0].position.y() < 0.8f * hips;
+  };
+  EXPECT_FALSE(low(score.clips[0].at.end - 1));
+  EXPECT_TRUE(low(rest.at.begin));
+  EXPECT_TRUE(low(rest.at.end + chain[1].held - 1));
+  EXPECT_FALSE(low(score.clips[3].at.begin));
+  EXPECT_EQ(score_from_json(json_of(score), "score.json"), score);
+  EXPECT_TRUE(same_bits(synthesize(corpus(), score).result.motion, made.result.motion));
+  const AnnotationDocument document = annotation_of(made.result);
+  const auto tier = std::ranges::find(document.tiers, "Rest left", &Tier::id);
+  ASSERT_NE(tier, document.tiers.end());
+  ASSERT_EQ(tier->annotations.size(), 1u);
+  EXPECT_EQ(tier->annotations[0].span.end, Milliseconds(10 * (rest.at.end + chain[1].held)));
+  EXPECT_EQ(std::ranges::find(document.tiers, "Hold left", &Tier::id), document.tiers.end());
+}
+
 const Motion& motion_of(const Synthesized& made) {
   return made.result.motion;
 }

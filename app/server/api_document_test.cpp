@@ -221,7 +221,7 @@ TEST(ApiDocument, AnswersToPostAndErrorsMatchTheirSchemas) {
   EXPECT_EQ(channels["movements"].size(), 2u) << channels["movements"];
   EXPECT_THAT(faults_of(json_in(api.send("POST", {"utterance"}, {{"text", "A , r@1..2 B#0 ."}})), "UtteranceText"),
               testing::IsEmpty());
-  const std::string parts = R"([A | weak: B r@1..2 @end-1] C{left hold ..; dominant left; gaze @up} D)";
+  const std::string parts = R"([A | weak: B r@1..2 @end-1] C{left hold ..; dominant left; gaze @up} [D | left: rest])";
   EXPECT_THAT(faults_of(json_in(api.send("POST", {"utterance"}, {{"text", parts}})), "UtteranceText"),
               testing::IsEmpty());
   const json score = json_in(api.send("POST", sign, {{"utterance", "VANNES MATIN"}, {"format", "score"}}));

@@ -13,15 +13,16 @@ namespace signweave {
 
 /// The members of a gloss or a piece.
 template <class Visit>
-void sign_fields(Visit& visit, const SignRef& sign) {
-  const bool is_gloss = sign.kind == SignRef::Kind::gloss;
+void sign_fields(Visit& visit, const SignRef& sign, bool given = true) {
+  const bool is_gloss = given && sign.kind == SignRef::Kind::gloss;
+  const bool is_piece = given && sign.kind == SignRef::Kind::piece;
   visit(AnswerField{.name = "gloss"}, given_if(is_gloss, sign.gloss.gloss));
   visit(AnswerField{.name = "token", .help = "missing: any", .minimum = 1},
         given_if(is_gloss && sign.gloss.token > 0, sign.gloss.token));
   visit(AnswerField{.name = "recording", .help = "of a piece, in place of a gloss"},
-        given_if(!is_gloss, sign.recording));
-  visit(AnswerField{.name = "from_ms"}, given_if(!is_gloss, sign.span.begin.count()));
-  visit(AnswerField{.name = "to_ms"}, given_if(!is_gloss, sign.span.end.count()));
+        given_if(is_piece, sign.recording));
+  visit(AnswerField{.name = "from_ms"}, given_if(is_piece, sign.span.begin.count()));
+  visit(AnswerField{.name = "to_ms"}, given_if(is_piece, sign.span.end.count()));
 }
 
 template <class Visit>
@@ -35,8 +36,10 @@ void fields(Visit& visit, const SyncMark& mark) {
 template <class Visit>
 void fields(Visit& visit, const PartSign& one) {
   visit.type("UtteranceSign");
-  sign_fields(visit, one.sign);
+  sign_fields(visit, one.sign, !one.rest);
   visit(AnswerField{.name = "sync"}, given_if(!one.sync.empty(), one.sync));
+  visit(AnswerField{.name = "rest", .help = "the hand rests instead of signing; not if missing"},
+        given_if(one.rest, true));
 }
 
 /// The names of kBodyParts, of the kinds of faults, and of a kind of non-manual.

@@ -171,6 +171,12 @@ class Composer {
         all.push_back({{from.clip, to.clip, placed_[from.clip].core_frames + length},
                        fmt::format("{} comes after {} in the lane '{}'", name(to.clip), name(from.clip),
                                    name_of(chain.channel))});
+        if (clips_[to.clip].at_rest && to.first > 0 && from.clip + 1 != to.first) {
+          const std::size_t before = to.first - 1;
+          all.push_back({{before, to.clip, placed_[before].core_frames + length},
+                         fmt::format("{} in the lane '{}' begins after {}", name(to.clip), name_of(chain.channel),
+                                     name(before))});
+        }
         if (!from.held_until) continue;
         const std::size_t until = *from.held_until;
         all.push_back({{until, to.clip, placed_[until].core_frames + length},
@@ -258,7 +264,7 @@ class Composer {
     const std::int64_t length = usual_cuts.tracks.length;
     const std::int64_t time = placed_[to.clip].core - placed_[from.clip].core_end();
     const bool has_time_left = static_cast<double>(time) > kLongest * static_cast<double>(length);
-    if (is_held || has_time_left) made.held = time - length;
+    if (is_held || has_time_left || clips_[from.clip].at_rest) made.held = time - length;
     const auto [at, is_new] = cuts_.try_emplace({from.clip, to.clip, made.held});
     if (is_new) {
       if (made.held == 0 && time == length && !is_held) {
@@ -309,6 +315,7 @@ class Composer {
 void set_places(Score& score, const std::vector<FoundPlace>& places) {
   for (const FoundPlace& found : places) {
     const PlaceCorrection& correction = found.correction;
+    if (correction.why_not && clips[found.clip].at_rest) continue;  // it rests as the copied arm has it
     if (correction.why_not) {
       throw Error(ErrorCode::bad_input,
                   fmt::format("{}; take another token of it, or let the whole body sign it", *correction.why_not));

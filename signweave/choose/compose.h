@@ -11,7 +11,8 @@ namespace signweave {
 /// Joins whole-body clips as `concatenate` does, while single channels show other clips or hold poses. Each lane has
 /// its own transitions (Algorithm 1 with cut points of its own). The clips' times are the earliest that let every lane
 /// have its transitions and that keep the given ties (see schedule.h); where a lane has time left, its last pose is
-/// held until its transition begins, or the transition is up to half as long again.
+/// held until its transition begins, or the transition is up to half as long again. A hand goes to its rest once the
+/// place before the rest's has ended, and leaves it as late as its next clip allows; nothing else waits for that.
 ///
 /// Clips that continue the one before them (MotionClip::continues) keep the recorded transition. Without parts and such
 /// clips, the result is that of `concatenate`. Throws as it does, and Error{bad_input} if parts contradict each

@@ -120,6 +120,7 @@ class ChannelLint {
       for (const Item& item : lane.items) {
         const auto* const held = std::get_if<Hold>(&item.what);
         if (held == nullptr || item.at.begin == 0 || item.at.end == made_.score.frames) continue;
+        if (made_.score.clips[held->clip].at_rest) continue;
         const double seconds = static_cast<double>(item.at.size()) / made_.score.rate.hertz();
         const Clip& clip = made_.score.clips[held->clip];
         const std::string what = clip.signs.empty() ? "a piece" : printable(clip.signs.back().gloss);
@@ -220,7 +221,7 @@ std::vector<Notice> lint_channels(const Synthesis& made, const std::vector<Motio
     const ChannelClip& part = parts.clips[i];
     // Signs of a tier of its own are what the signer did.
     if (part.clip.continues || (i + 1 < parts.clips.size() && parts.clips[i + 1].clip.continues)) continue;
-    lint.examine(i);
+    if (!part.clip.at_rest) lint.examine(i);
     lint.dropped(part.channel, part.first, part.last);
   }
   for (const ChannelHold& held : parts.holds) lint.dropped(held.channel, held.from + 1, held.until);

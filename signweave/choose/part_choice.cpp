@@ -8,6 +8,7 @@
 #include "signweave/core/error.h"
 #include "signweave/core/text.h"
 #include "signweave/database/signer_dominance.h"
+#include "signweave/features/hand_rest.h"
 #include "signweave/render/plan.h"
 
 namespace signweave {
@@ -36,6 +37,24 @@ std::optional<bool> mirrored(const Snapshot& snapshot, Channel channel, const Ca
   const std::optional<Side> only = only_hand_of(snapshot, candidate.first_row);
   if (!only) return std::nullopt;
   return *only != *side;
+}
+
+/// The hand of a channel at rest, as captured nearest to a sign of the same signer. Throws Error{bad_input} if the hand
+/// of the recording is unknown.
+Candidate rest_near(const Snapshot& snapshot, Channel channel, const Candidate& sign) {
+  const HandTrace trace = snapshot.hand_trace(sign.recording);
+  const std::optional<FrameRange> rest = hand_rest(trace, *side_of(channel), sign.core.begin);
+  if (!rest) {
+    throw Error(ErrorCode::bad_input,
+                fmt::format("the {} hand cannot rest: '{}' has no trace of it{}{}", name_of(channel),
+                            printable(snapshot.contents().recordings[sign.recording].name),
+                            trace.why_not.empty() ? "" : "; ", trace.why_not));
+  }
+  Candidate candidate;
+  candidate.recording = sign.recording;
+  candidate.whole = candidate.core = *rest;
+  candidate.at_strokes = false;
+  return candidate;
 }
 
 bool is_same(const Candidate& a, const Candidate& b) {
@@ -72,7 +91,9 @@ std::vector<PartChoice> part_choices(const Contents& contents, const Utterance& 
   Utterance all;  // every sign of a part, to report all that are missing at once
   for (const Place& place : utterance.places) {
     for (const PlacePart& part : place.parts) {
-      for (const PartSign& sign : part.signs) all.places.push_back({{sign.sign}, Milliseconds(0), {}, {}});
+      for (const PartSign& sign : part.signs) {
+        if (!sign.rest) all.places.push_back({{sign.sign}, Milliseconds(0), {}, {}});
+      }
     }
   }
   if (!all.places.empty()) require_glosses(all, contents.segments);
@@ -87,7 +108,7 @@ std::vector<PartChoice> part_choices(const Contents& contents, const Utterance& 
                      .signs = {},
                      .sync = {}});
       for (const PartSign& sign : part.signs) {
-        choice.signs.push_back(candidates_for(contents, sign.sign));
+        choice.signs.push_back(sign.rest ? std::vector<Candidate>() : candidates_for(contents, sign.sign));
         std::vector<ClipSync>& sync = choice.sync.emplace_back();
         for (const SyncMark& mark : sign.sync) {
           const bool at_end = mark.anchor == SyncMark::Anchor::end;
@@ -142,6 +163,10 @@ std::vector<ChosenPart> choose_parts(const Snapshot& snapshot, std::span<const P
     const std::size_t before = part.place > 0 ? 1 : 0;
     if (before > 0) chain.push_back({.candidates = {*chosen[part.place - 1]}});
     for (std::size_t i = 0; i < part.signs.size(); ++i) {
+      if (part.signs[i].empty()) {
+        chain.push_back({.candidates = {rest_near(snapshot, part.channel, own)}});
+        continue;
+      }
       const auto same = i == 0 ? find_own(part.signs[i]) : part.signs[i].end();
       chain.push_back(same == part.signs[i].end() ? Choice{.candidates = part.signs[i]}
                                                   : Choice{.candidates = {*same}});
@@ -151,7 +176,9 @@ std::vector<ChosenPart> choose_parts(const Snapshot& snapshot, std::span<const P
     for (std::size_t i = 0; i < part.signs.size(); ++i) {
       const std::size_t at = before + i;
       result.push_back({&part, i, chain[at].candidates[selection.chosen[at]]});
-      result.back().mirrored = mirrored(snapshot, part.channel, result.back().candidate);
+      result.back().rest = part.signs[i].empty();
+      result.back().mirrored =
+          result.back().rest ? std::optional(false) : mirrored(snapshot, part.channel, result.back().candidate);
     }
   }
   return result;
@@ -169,7 +196,7 @@ ChannelClip channel_clip(const ChosenPart& chosen, std::span<const std::size_t> 
     sync.with = clip_of[sync.with];
     clip.sync.push_back(sync);
   }
-  if (clip.sync.empty() && chosen.sign == 0) clip.sync.push_back({.with = clip.first});
+  if (clip.sync.empty() && chosen.sign == 0 && !chosen.rest) clip.sync.push_back({.with = clip.first});
   return clip;
 }
 

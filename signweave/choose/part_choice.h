@@ -23,7 +23,7 @@ struct PartChoice {
   std::size_t place = 0;  ///< the first place that the part accompanies
   std::size_t last = 0;   ///< inclusive
   Channel channel = Channel::left;
-  std::vector<std::vector<Candidate>> signs;
+  std::vector<std::vector<Candidate>> signs;  ///< empty: the hand rests
   std::vector<std::vector<ClipSync>> sync;  ///< [sign]; `with` is a place. Of the first, empty: it begins with the part
   std::vector<bool> continues = {};         ///< [sign] see MotionClip; empty: none
 };
@@ -42,6 +42,7 @@ struct ChosenPart {
   /// The hand of the part shows the sign mirrored if the other hand signs it alone, and as captured if this one does.
   /// None: both hands sign it, or the part is no hand.
   std::optional<bool> mirrored = {};
+  bool rest = false;  ///< the hand rests
 };
 /// Chooses a candidate for each sign of the parts: the token of the place itself if the part signs the same, else the
 /// one that joins best with what is signed before and after it. A part that signs nothing but its place's token with it

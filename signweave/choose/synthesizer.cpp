@@ -180,7 +180,8 @@ Synthesized run(const Snapshot& snapshot, Wanted wanted, std::string_view edited
                      .place = chosen.place,
                      .sign_places = std::move(chosen.sign_places),
                      .continues = chosen.continues,
-                     .noise = snapshot.joins(candidate.recording)->noise});
+                     .noise = snapshot.joins(candidate.recording)->noise,
+                     .at_rest = is_part && composed.chosen[clips.size() - body].rest});
   }
 
   std::size_t reference = 0;

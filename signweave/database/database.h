@@ -17,6 +17,7 @@
 #include "signweave/core/error.h"
 #include "signweave/database/joins.h"
 #include "signweave/database/recording.h"
+#include "signweave/features/hand_trace.h"
 #include "signweave/features/phase_features.h"
 #include "signweave/features/transition_stats.h"
 #include "signweave/kv/kv_store.h"
@@ -88,6 +89,10 @@ class Snapshot {
   /// Returns the measures of the phases of `contents().recordings[recording]`, as Database::features does; only the
   /// reason if the record is damaged.
   RecordingFeatures features(std::size_t recording) const;
+
+  /// Returns the trace of both hands of `contents().recordings[recording]`, as stored, or measured now; only the reason
+  /// if there is none.
+  HandTrace hand_trace(std::size_t recording) const;
 
   /// Returns the result of learning from the corpus (see Database::learn): the stored record, or learned now if that is
   /// missing, damaged, of another version or of a much older state of the database.

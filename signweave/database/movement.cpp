@@ -71,6 +71,10 @@ std::vector<MovementRow> rows_of(const SegmentTable::RecordingRef& part) {
 
 }  // namespace
 
+HandTrace Snapshot::hand_trace(std::size_t recording) const {
+  return trace_stored(*transaction_, contents_->recordings[recording]);
+}
+
 std::shared_ptr<MovementCache::Entry> MovementCache::find(std::uint32_t recording) const {
   const std::lock_guard guard(mutex_);
   const auto at = recordings_.find(recording);

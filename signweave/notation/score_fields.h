@@ -99,6 +99,7 @@ void fields(Visit& visit, const Clip& clip) {
   visit(AnswerField{.name = "signs"}, signs_of(clip));
   visit(AnswerField{.name = "mirrored", .help = "shown with left and right exchanged; not if missing"},
         given_if(clip.mirrored, true));
+  visit(AnswerField{.name = "at_rest", .help = "a hand that rests; not if missing"}, given_if(clip.at_rest, true));
 }
 
 template <class Visit>

@@ -188,6 +188,7 @@ Clip clip_from(const Value& value) {
             .sign_places = {}};
   if (!value["standing"].is_null()) clip.standing = standing_from(value["standing"]);
   if (value.has("mirrored")) clip.mirrored = value["mirrored"].flag();
+  if (value.has("at_rest")) clip.at_rest = value["at_rest"].flag();
   const Value signs = value["signs"];
   for (std::size_t i = 0; i < signs.size(); ++i) {
     clip.signs.push_back(sign_from(signs.at(i)));

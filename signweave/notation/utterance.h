@@ -58,10 +58,11 @@ struct SyncMark {
   friend bool operator==(const SyncMark&, const SyncMark&) = default;
 };
 
-/// A sign of one part of the signer.
+/// A sign of one part of the signer, or a rest of a hand.
 struct PartSign {
-  SignRef sign;
+  SignRef sign;                ///< not used for a rest
   std::vector<SyncMark> sync;  ///< empty: the first of its part begins with the place, another follows the previous one
+  bool rest = false;           ///< the hand is lowered to the signer's rest, and stays there until it is needed
   friend bool operator==(const PartSign&, const PartSign&) = default;
 };
 
@@ -189,7 +190,7 @@ std::string_view name_of(UtteranceFault::Kind kind) noexcept;
 /// The words that a database and its users know. Functions may be empty.
 struct UtteranceWords {
   /// A word for which it is true is that gloss, whatever brackets, `|`, `@`, … it contains; of several such beginnings
-  /// of a word the longest is. Called only for words with such characters and for `hold`. Empty: false.
+  /// of a word the longest is. Called only for words with such characters, for `hold` and for `rest`. Empty: false.
   std::function<bool(std::string_view)> is_gloss;
   /// Whether an expression exists. Empty: true.
   std::function<bool(std::string_view)> is_expression;

@@ -94,6 +94,24 @@ TEST(UtteranceChannels, AHoldLastsFromThePlaceBeforeItsBracket) {
             std::vector{part(BodyPart::weak, {gloss("hold")})});
 }
 
+TEST(UtteranceChannels, AHandRestsNextToAndBetweenSigns) {
+  PlacePart one = part(BodyPart::weak, {{}});
+  one.signs[0].rest = true;
+  EXPECT_EQ(parse_utterance("[A | weak: rest]").places[0].parts, std::vector{one});
+  PlacePart between = part(BodyPart::left, {gloss("X"), {}, gloss("Y")}, 2);
+  between.signs[1].rest = true;
+  EXPECT_EQ(parse_utterance("[A B | left: X rest Y]").places[0].parts, std::vector{between});
+  EXPECT_EQ(fault_in("A{weak ..+1: rest} B"), "[A B | weak: rest]");
+  EXPECT_EQ(parse_utterance("[A | weak: \"rest\"]").places[0].parts,
+            std::vector{part(BodyPart::weak, {gloss("rest")})});
+  EXPECT_EQ(parse_utterance("[A | weak: rest]", glosses({"rest"})).places[0].parts,
+            std::vector{part(BodyPart::weak, {gloss("rest")})});
+  EXPECT_EQ(names_of(parse_utterance("rest [rest | weak: A]")), (std::vector<std::string>{"rest", "rest"}));
+  EXPECT_THAT(faults_in("[A | head: rest] B{fingers: X rest}"), ElementsAre("bad_option 5 15", "bad_option 19 34"));
+  EXPECT_THAT(faults_in("[A | weak: rest @begin] [A | weak: rest hold]"),
+              ElementsAre("bad_sync 16 22", "bad_option 40 44"));
+}
+
 TEST(UtteranceChannels, AHoldLastsUntilANamedPlace) {
   const auto hold = [](const std::string& text) { return parse_utterance(text).holds.at(0); };
   EXPECT_EQ(hold("A C{weak hold ..C} B C C"), (HandHold{BodyPart::weak, 1, 3}));

@@ -163,7 +163,7 @@ void OptionsReader::read_labelled(const RawOption& raw) {
     cursor_.report(bad_option, {raw.at.begin, reading.hold->end},
                    fmt::format("in options say until when it holds: {} hold ..GLOSS", name_of(*part)));
   }
-  if (reading.hold || !reading.sound || raw.faulty) return;
+  if (reading.hold || !reading.sound || raw.faulty || !check_rest(cursor_, reading, *part, raw.at.begin)) return;
   options_.parts.push_back({*part, std::move(reading.signs), raw.extent, {raw.at.begin, cursor_.at}});
 }
 

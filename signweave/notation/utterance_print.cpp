@@ -22,7 +22,7 @@ std::string sign_text(const SignRef& sign, bool inside) {
 std::string signs_text(const std::vector<PartSign>& signs) {
   std::string text;
   for (const PartSign& one : signs) {
-    text += (text.empty() ? "" : " ") + sign_text(one.sign, true);
+    text += (text.empty() ? "" : " ") + (one.rest ? "rest" : sign_text(one.sign, true));
     for (const SyncMark& mark : one.sync) {
       text += mark.anchor == SyncMark::Anchor::begin ? " @begin" : " @end";
       if (mark.offset != Milliseconds(0)) text += fmt::format("{:+}", mark.offset.count());

@@ -309,7 +309,7 @@ void UtteranceReader::read_group_part(OpenGroup& group) {
   } else if (reading.hold && !is_hand(*part)) {
     cursor_.report(bad_option, {begin, reading.hold->end},
                    fmt::format("'{}' cannot be held; a hand can: dominant, weak, right or left", name_of(*part)));
-  } else {
+  } else if (check_rest(cursor_, reading, *part, begin)) {
     group.parts.push_back({*part, std::move(reading.signs), reading.hold, at});
   }
 }

@@ -61,6 +61,11 @@ std::string with_single_quotes(std::string_view inner) {
   return text;
 }
 
+/// True for words that are no gloss in a part.
+bool is_keyword(std::string_view name) noexcept {
+  return name == "hold" || name == "rest";
+}
+
 /// Whether a quote here may begin a quotation, for skipping over text that cannot be read.
 bool begins_quotation(std::string_view text, std::size_t at) {
   return text[at] == '"' &&
@@ -158,7 +163,7 @@ std::string quoted_if_needed(std::string_view name) {
 }
 
 std::string quoted_if_needed_inside(std::string_view name) {
-  const bool syntax = name.find_first_of("|;") != name.npos || name.starts_with('@') || name == "hold";
+  const bool syntax = name.find_first_of("|;") != name.npos || name.starts_with('@') || is_keyword(name);
   return syntax ? in_quotes(name) : quoted_if_needed(name);
 }
 
@@ -217,7 +222,7 @@ Word Cursor::word(Context context) {
     if (next.blank || next.ends) break;
   }
   const std::string_view name = text_.substr(begin, end - begin);
-  const bool unclear = next.ends || (context != Context::text && (name.starts_with('@') || name == "hold"));
+  const bool unclear = next.ends || (context != Context::text && (name.starts_with('@') || is_keyword(name)));
   if (unclear && words_.is_gloss) {
     if (std::optional<Word> gloss = known_gloss(begin, end, context)) {
       at = gloss->at.end;

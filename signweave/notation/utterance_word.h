@@ -114,17 +114,20 @@ class Cursor {
 struct PartReading {
   std::vector<PartSign> signs;
   std::optional<WordSpan> hold;
-  bool sound = true;  ///< false: a fault was reported
+  std::optional<WordSpan> rest;  ///< the first of its rests
+  bool sound = true;             ///< false: a fault was reported
 };
 PartReading read_part(Cursor& cursor, Context context);
 
 /// The part of a label such as "weak", "right fingers", "fingers right" or "fingers".
 std::optional<BodyPart> body_part_of(std::string_view label);
-/// True for hands, which can be held.
+/// True for hands, which can be held and can rest.
 bool is_hand(BodyPart part) noexcept;
 /// "+200" or "-40"; none if it is not such a number of at most kMostUtteranceOffset.
 std::optional<Milliseconds> offset_of(std::string_view text);
 /// Reports a label that is no part.
 void report_unknown_part(Cursor& cursor, WordSpan span, std::string_view label);
+/// False if `part` cannot rest, although `reading` has a rest; reports it. `begin` is that of the part.
+bool check_rest(Cursor& cursor, const PartReading& reading, BodyPart part, std::size_t begin);
 
 }  // namespace signweave::utterances

@@ -38,6 +38,10 @@ bool read_sync(Cursor& cursor, const Word& word, std::vector<PartSign>& signs) {
     cursor.report(bad_sync, word.at, "a sync mark belongs behind the sign of a part: weak: B @begin+200");
     return false;
   }
+  if (signs.back().rest) {
+    cursor.report(bad_sync, word.at, "a rest has no sync mark; it lasts until the next sign of its hand");
+    return false;
+  }
   std::vector<SyncMark>& marks = signs.back().sync;
   if (std::ranges::find(marks, sync.anchor, &SyncMark::anchor) != marks.end()) {
     cursor.report(bad_sync, word.at, "this sign has such a sync mark already; keep one of them");
@@ -67,6 +71,9 @@ void read_part_word(Cursor& cursor, Context context, PartReading& reading) {
     if (reading.hold || !reading.signs.empty())
       cursor.report(bad_option, word.at, "a hold is alone in its part; quote it if it is a gloss", "\"hold\"");
     reading.hold = word.at;
+  } else if (bare && word.text == "rest" && word.suffix.empty()) {
+    if (!reading.rest) reading.rest = word.at;
+    reading.signs.push_back({.sign = {}, .sync = {}, .rest = true});
   } else if (bare && word.text.front() == '@') {
     read_sync(cursor, word, reading.signs);
   } else {
@@ -74,7 +81,7 @@ void read_part_word(Cursor& cursor, Context context, PartReading& reading) {
     if (sign.fault) {
       cursor.report(std::move(*sign.fault));
     } else {
-      reading.signs.push_back({std::move(sign.sign), {}});
+      reading.signs.push_back({.sign = std::move(sign.sign), .sync = {}});
     }
   }
 }
@@ -120,6 +127,15 @@ std::optional<BodyPart> body_part_of(std::string_view label) {
 
 bool is_hand(BodyPart part) noexcept {
   return part == BodyPart::dominant || part == BodyPart::weak || part == BodyPart::right || part == BodyPart::left;
+}
+
+bool check_rest(Cursor& cursor, const PartReading& reading, BodyPart part, std::size_t begin) {
+  if (!reading.rest || is_hand(part)) return true;
+  cursor.report(
+      bad_option, {begin, reading.rest->end},
+      fmt::format("'{}' cannot rest; a hand can: dominant, weak, right or left. Quote the word if it is a gloss",
+                  name_of(part)));
+  return false;
 }
 
 std::optional<Milliseconds> offset_of(std::string_view text) {

@@ -240,7 +240,8 @@ std::vector<MotionClip> clips_of(const Score& score, const FindSource& find) {
                                                        .sign_places = clip.sign_places,
                                                        .kind = clip.source.kind,
                                                        .noise = source.noise,
-                                                       .mirrored = clip.mirrored});
+                                                       .mirrored = clip.mirrored,
+                                                       .at_rest = clip.at_rest});
     if (clip.id == 0) continue;
     const JunctionRef& junction = score.junctions[clip.id - 1];
     if (!junction.chosen.empty()) opened.junction = parse_junction("1=" + junction.chosen).choice;
@@ -292,7 +293,8 @@ Clip clip_of(const PlacedClip& placed, ClipId id) {
           .clock = clip.clock,
           .signs = clip.signs,
           .sign_places = places_of(clip, id),
-          .mirrored = clip.mirrored};
+          .mirrored = clip.mirrored,
+          .at_rest = clip.at_rest};
 }
 
 Score score_of(const Plan& plan, const JunctionSettings& settings, const SourceRef& skeleton) {

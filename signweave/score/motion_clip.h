@@ -18,6 +18,7 @@
 namespace signweave {
 
 /// A clip of a recording, ready to be joined. Its frames are read on demand, directly into the result.
+/// More than fifteen members: those of a score's Clip, and what its frames are read from.
 struct MotionClip {
   std::string recording;                       ///< empty if the frames are of no recording
   std::shared_ptr<const MotionSource> source;  ///< the recording's motion
@@ -37,6 +38,7 @@ struct MotionClip {
   /// Noise of its motion, in the joints of `source`; null: unknown, or retargeted to another skeleton.
   std::shared_ptr<const CaptureNoise> noise = nullptr;
   bool mirrored = false;  ///< `source` shows the recording with left and right exchanged
+  bool at_rest = false;   ///< see Clip
 };
 
 /// The place that one of a clip's signs fills; `number` is used for a clip without `place`.

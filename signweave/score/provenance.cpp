@@ -69,6 +69,7 @@ class TierWriter {
     Tier source{.id = "Source" + suffix, .type = "source"};
     Tier junction{.id = "Junction" + suffix, .type = "junction"};
     Tier hold{.id = "Hold" + suffix, .type = "hold"};
+    Tier rest{.id = "Rest" + suffix, .type = "rest"};
     for (const Item& item : lane.items) {
       const TimeSpan span = span_of(item.at, clock_);
       if (span.duration() <= Milliseconds(0)) continue;
@@ -78,8 +79,13 @@ class TierWriter {
           text += fmt::format(", hand kept in {}, moved {:.0f} mm", signweave::name_of(use->place->kept_in),
                               use->place->moved_mm);
         }
+        if (synthesis_.score.clips[use->clip].at_rest) rest.annotations.push_back(annotation(span, text, new_id()));
         source.annotations.push_back(annotation(span, std::move(text), new_id()));
       } else if (const auto* const held = std::get_if<Hold>(&item.what)) {
+        if (synthesis_.score.clips[held->clip].at_rest) {  // a hold of a rest is a longer rest
+          rest.annotations.back().span.end = span.end;
+          continue;
+        }
         hold.annotations.push_back(
             annotation(span, fmt::format("clip {}: {}", held->clip, synthesis_.clips[held->clip].recording), new_id()));
       } else {
@@ -92,7 +98,8 @@ class TierWriter {
                        new_id()));
       }
     }
-    for (Tier* const tier : {&source, &junction, &hold}) {
+    has_rests_ = has_rests_ || !rest.annotations.empty();
+    for (Tier* const tier : {&source, &junction, &hold, &rest}) {
       if (!tier->annotations.empty()) tiers_.push_back(std::move(*tier));
     }
   }
@@ -113,6 +120,7 @@ class TierWriter {
 
   std::vector<Tier> take() { return std::move(tiers_); }
   int last_id() const noexcept { return next_ - 1; }
+  bool has_rests() const noexcept { return has_rests_; }
 
  private:
   static std::string suffix_of(Channel channel) {
@@ -148,6 +156,7 @@ class TierWriter {
   FrameClock clock_;
   std::vector<Tier> tiers_;
   int next_ = 1;
+  bool has_rests_ = false;
 };
 
 }  // namespace
@@ -176,6 +185,7 @@ AnnotationDocument annotation_of(const Synthesis& synthesis, const std::string& 
   writer.add_curves();
   if (!synthesis.score.curves.empty()) document.types.push_back({"movement", Stereotype::none, {}});
   if (!lanes.empty()) document.types.push_back({"hold", Stereotype::none, {}});
+  if (writer.has_rests()) document.types.push_back({"rest", Stereotype::none, {}});
   document.properties.emplace_back("lastUsedAnnotationId", fmt::format("{}", writer.last_id()));
   document.tiers = writer.take();
   return document;

@@ -73,7 +73,11 @@ SynthesisReport report_of(const Synthesis& synthesis) {
   }
   for (std::size_t i = 0; i < synthesis.clips.size(); ++i) {
     const Clip& clip = synthesis.score.clips[i];
-    report.clips.push_back({.clip = i, .place = clip.place, .shown = synthesis.clips[i], .mirrored = clip.mirrored});
+    report.clips.push_back({.clip = i,
+                            .place = clip.place,
+                            .shown = synthesis.clips[i],
+                            .mirrored = clip.mirrored,
+                            .at_rest = clip.at_rest});
   }
   for (std::size_t i = 0; i < synthesis.junctions.size(); ++i) {
     report.junctions.push_back(

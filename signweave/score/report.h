@@ -70,6 +70,7 @@ struct ReportClip {
   std::size_t place = 0;
   ShownClip shown;
   bool mirrored = false;  ///< left and right are exchanged
+  bool at_rest = false;   ///< a hand that rests
 };
 template <class Visit>
 void fields(Visit& visit, const ReportClip& one) {
@@ -84,6 +85,7 @@ void fields(Visit& visit, const ReportClip& one) {
   visit(AnswerField{.name = "recorded_frames_per_frame"}, one.shown.step);
   visit(AnswerField{.name = "mirrored", .help = "left and right are exchanged; not if missing"},
         given_if(one.mirrored, true));
+  visit(AnswerField{.name = "at_rest", .help = "a hand that rests; not if missing"}, given_if(one.at_rest, true));
 }
 
 /// How a part of the body is cut at a junction.

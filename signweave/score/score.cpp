@@ -41,6 +41,8 @@ struct Checker {
     const bool of_body = index < body;
     require(!clip.mirrored || clip.source.kind == SourceRef::Kind::recording,
             "clip {} is mirrored, but not of kind 'recording'; only frames of recordings can be mirrored", index);
+    require(!clip.at_rest || (clip.signs.empty() && !of_body),
+            "clip {} is at rest, but has signs or is of the body; only a single hand rests", index);
     require(in_range(clip.whole.begin) && in_range(clip.whole.end) && clip.whole.begin <= clip.core.begin &&
                 clip.core.begin < clip.core.end && clip.core.end <= clip.whole.end,
             "clip {} keeps frames {} to {} out of {} to {}; the first range must not be empty, and lie in the second",
@@ -232,7 +234,7 @@ std::string name_of(const Clip& clip) {
   if (clip.source.kind == SourceRef::Kind::shown) return "what was shown before";
   std::string signs;
   for (const Sign& sign : clip.signs) signs += (signs.empty() ? "" : " ") + printable(sign.gloss);
-  if (signs.empty()) signs = clip.source.kind == SourceRef::Kind::rest ? "at rest" : "a piece";
+  if (signs.empty()) signs = clip.at_rest || clip.source.kind == SourceRef::Kind::rest ? "at rest" : "a piece";
   return fmt::format("{} from '{}'{}", signs, printable(clip.source.recording), clip.mirrored ? ", mirrored" : "");
 }
 

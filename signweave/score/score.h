@@ -50,6 +50,7 @@ struct Clip {
   std::vector<Sign> signs;                  ///< its signs, in the recording's annotation time
   std::vector<std::size_t> sign_places;     ///< [sign] the place that it fills
   bool mirrored = false;                    ///< shown with left and right exchanged; signs are as annotated
+  bool at_rest = false;                     ///< a hand that rests; no signs
   friend bool operator==(const Clip&, const Clip&) = default;
 };
 

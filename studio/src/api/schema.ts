@@ -474,6 +474,8 @@ export interface components {
       readonly recorded_frames_per_frame: number
       /** @description left and right are exchanged; not if missing */
       readonly mirrored?: boolean
+      /** @description a hand that rests; not if missing */
+      readonly at_rest?: boolean
     }
     readonly ReportCut: {
       readonly retraction_frames: number
@@ -666,6 +668,8 @@ export interface components {
       readonly signs: readonly components['schemas']['ScoreSign'][]
       /** @description shown with left and right exchanged; not if missing */
       readonly mirrored?: boolean
+      /** @description a hand that rests; not if missing */
+      readonly at_rest?: boolean
     }
     readonly ScoreJunction: {
       readonly number: number
@@ -793,6 +797,8 @@ export interface components {
       readonly from_ms?: number
       readonly to_ms?: number
       readonly sync?: readonly components['schemas']['UtteranceSync'][]
+      /** @description the hand rests instead of signing; not if missing */
+      readonly rest?: boolean
     }
     /** @description what a part of the signer does meanwhile */
     readonly UtterancePart: {

@@ -12,62 +12,49 @@ using End = HandPlan::End;
 constexpr float kSink = 0.10f;
 constexpr double kLowerHand = 0.7;  ///< seconds from the belly to the hips
 
-/// Joins the pieces of one hand end to end.
+/// Plans one hand over the signs of its lane.
 class LanePlanner {
  public:
   LanePlanner(const ChannelTimeline& timeline, Side side, Random& random)
-      : timeline_(timeline), side_(side), random_(random), fps_(timeline.rate.hertz()) {}
+      : timeline_(timeline), side_(side), random_(random), fps_(timeline.rate.hertz()), chain_(side, fps_) {}
 
   std::vector<Piece> build() {
     const std::vector<LaneSign>& signs = timeline_.lanes[static_cast<std::size_t>(side_)];
     for (std::size_t i = 0; i < signs.size(); ++i) {
       const PlacedSign& sign = signs[i].placed;
       const bool after_rest = i == 0 || signs[i - 1].placed.end < sign.begin;
-      if (after_rest) add(sign.begin, now_);
+      if (after_rest) add(sign.begin, chain_.now());
       move_to(sign.stroke_begin, {.sign = &sign}, sign.begin);
       add(sign.stroke_end, {.sign = &sign, .stroke = 1});
-      add(signs[i].hold_end, now_);
+      add(signs[i].hold_end, chain_.now());
       const bool last = i + 1 == signs.size();
       if (last || sign.end < signs[i + 1].placed.begin) {
         const bool in_last_unit = sign.end >= timeline_.units.back()[0];
         move_to(sign.end, {.rest = last && in_last_unit ? Rest::hips : Rest::belly}, sign.end);
       }
     }
-    if (now_.rest != Rest::hips) {
+    if (chain_.now().rest != Rest::hips) {
       const std::int64_t end = timeline_.units.back()[1];
-      add(end - std::llround(kLowerHand * fps_), now_);
+      add(end - std::llround(kLowerHand * fps_), chain_.now());
       move_to(end, {.rest = Rest::hips}, end);
     }
-    add(timeline_.frames, now_);
-    return std::move(pieces_);
+    add(timeline_.frames, chain_.now());
+    return chain_.take();
   }
 
  private:
-  void add(std::int64_t until, const End& to) {
-    const auto end = static_cast<double>(until);
-    if (end > at_) {
-      Piece piece{.begin = at_, .end = end, .from = now_, .to = to};
-      if (side_ == Side::left && to.sign != nullptr) {
-        piece.lag = std::min(0.15, to.sign->token.lag * fps_ / (end - at_));
-      }
-      pieces_.push_back(piece);
-      at_ = end;
-    }
-    now_ = to;
-  }
+  void add(std::int64_t until, const End& to) { chain_.add(static_cast<double>(until), to); }
 
   void move_to(std::int64_t end, const End& to, std::int64_t split) {
     add(end, to);
-    shape_movement(pieces_.back(), side_, split, kSink, fps_, random_);
+    shape_movement(chain_.last(), side_, split, kSink, fps_, random_);
   }
 
   const ChannelTimeline& timeline_;
   Side side_;
   Random& random_;
   double fps_;
-  std::vector<Piece> pieces_;
-  double at_ = 0;
-  End now_ = {.rest = Rest::hips};
+  PieceChain chain_;
 };
 
 }  // namespace

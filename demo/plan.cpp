@@ -67,72 +67,77 @@ void shape_movement(Piece& piece, Side side, std::int64_t split, float sink, dou
   }
 }
 
-/// Joins the pieces of one hand end to end.
+void PieceChain::add(double until, const End& to) {
+  if (until > end_) {
+    Piece piece{.begin = end_, .end = until, .from = now_, .to = to};
+    if (side_ == Side::left && to.sign != nullptr)
+      piece.lag = std::min(0.15, to.sign->token.lag * fps_ / (until - end_));
+    pieces_.push_back(piece);
+    end_ = until;
+  }
+  now_ = to;
+}
+
+/// Plans one hand over the signs of a timeline.
 class HandPlan::Builder {
  public:
   Builder(const Script& script, const Timeline& timeline, Side side, Random& random)
-      : script_(script), timeline_(timeline), side_(side), random_(random), fps_(timeline.rate.hertz()) {}
+      : script_(script),
+        timeline_(timeline),
+        side_(side),
+        random_(random),
+        fps_(timeline.rate.hertz()),
+        chain_(side, fps_) {}
 
   std::vector<Piece> build() {
     for (std::size_t i = 0; i < timeline_.signs.size(); ++i) {
       const PlacedSign& sign = timeline_.signs[i];
       if (acts(*sign.shape, side_)) {
-        const bool neighbour = now_.sign != nullptr && now_.sign + 1 == &sign && !ends_unit(timeline_, i - 1);
+        const bool neighbour =
+            chain_.now().sign != nullptr && chain_.now().sign + 1 == &sign && !ends_unit(timeline_, i - 1);
         if (!neighbour) wait(frame(sign.begin) - (side_ == Side::left ? kRisesEarlier * fps_ : 0), sign.begin);
         move_to(frame(sign.stroke_begin), {.sign = &sign}, sign.begin);
-        add(frame(sign.stroke_end), {.sign = &sign, .stroke = 1});
+        chain_.add(frame(sign.stroke_end), {.sign = &sign, .stroke = 1});
       }
       if (ends_unit(timeline_, i)) finish(i);
     }
-    add(frame(timeline_.frames), now_);
-    return std::move(pieces_);
+    chain_.add(frame(timeline_.frames), chain_.now());
+    return chain_.take();
   }
 
  private:
   static double frame(std::int64_t frame) { return static_cast<double>(frame); }
 
-  void add(double end, const End& to) {
-    if (end > at_) {
-      Piece piece{.begin = at_, .end = end, .from = now_, .to = to};
-      if (side_ == Side::left && to.sign != nullptr) {
-        piece.lag = std::min(0.15, to.sign->token.lag * fps_ / (end - at_));
-      }
-      pieces_.push_back(piece);
-      at_ = end;
-    }
-    now_ = to;
-  }
-
   /// Adds a movement to another position. `split`: the frame in which the next sign begins.
   void move_to(double end, const End& to, std::int64_t split) {
-    const double begin = at_;
-    add(end, to);
-    if (begin != at_) shape_movement(pieces_.back(), side_, split, script_.sink, fps_, random_);
+    const double begin = chain_.end();
+    chain_.add(end, to);
+    if (begin != chain_.end()) shape_movement(chain_.last(), side_, split, script_.sink, fps_, random_);
   }
 
   /// Adds the behaviour of a hand until it is needed again: at the earliest at `until`, at the latest at `sign_begin`.
   void wait(double until, std::int64_t sign_begin) {
-    until = std::max(until, at_);
-    if (now_.sign != nullptr) {
-      if (until - at_ < kHoldsFor * fps_) {
+    until = std::max(until, chain_.end());
+    if (chain_.now().sign != nullptr) {
+      if (until - chain_.end() < kHoldsFor * fps_) {
         hold(until);
       } else {
         drop(until, sign_begin);
       }
     }
-    add(until, now_);
+    chain_.add(until, chain_.now());
   }
 
   void hold(double until) {
-    End held = now_;
+    End held = chain_.now();
     held.let_go = kLetGo;
-    add(std::min(at_ + 0.4 * fps_, until), held);
-    add(until, held);
+    chain_.add(std::min(chain_.end() + 0.4 * fps_, until), held);
+    chain_.add(until, held);
   }
 
   void drop(double until, std::int64_t split) {
-    add(std::min(at_ + kDropsAfter * fps_, until), now_);
-    move_to(std::min(at_ + kDropsIn * fps_, until), {.rest = rest_}, split);
+    chain_.add(std::min(chain_.end() + kDropsAfter * fps_, until), chain_.now());
+    move_to(std::min(chain_.end() + kDropsIn * fps_, until), {.rest = rest_}, split);
   }
 
   /// Adds the end of a sentence whose last sign is number i.
@@ -140,17 +145,17 @@ class HandPlan::Builder {
     rest_ = i + 1 == timeline_.signs.size() ? Rest::hips : Rest::belly;
     const PlacedSign& last = timeline_.signs[i];
     const auto end = frame(last.end);
-    if (now_.sign == &last) {
+    if (chain_.now().sign == &last) {
       move_to(end, {.rest = rest_}, last.end);
-    } else if (now_.sign != nullptr) {
-      if (frame(last.stroke_end) - at_ < kWaitsFor * fps_) {
-        hold(std::max(at_, frame(last.stroke_end)));
-        move_to(std::max(end, at_ + 0.5 * fps_), {.rest = rest_}, last.end);
+    } else if (chain_.now().sign != nullptr) {
+      if (frame(last.stroke_end) - chain_.end() < kWaitsFor * fps_) {
+        hold(std::max(chain_.end(), frame(last.stroke_end)));
+        move_to(std::max(end, chain_.end() + 0.5 * fps_), {.rest = rest_}, last.end);
       } else {
         drop(end, last.end);
       }
-    } else if (now_.rest != rest_) {
-      move_to(std::max(end, at_ + 0.7 * fps_), {.rest = rest_}, last.end);
+    } else if (chain_.now().rest != rest_) {
+      move_to(std::max(end, chain_.end() + 0.7 * fps_), {.rest = rest_}, last.end);
     }
   }
 
@@ -159,9 +164,7 @@ class HandPlan::Builder {
   Side side_;
   Random& random_;
   double fps_;
-  std::vector<Piece> pieces_;
-  double at_ = 0;
-  End now_ = {.rest = Rest::hips};
+  PieceChain chain_;
   Rest rest_ = Rest::belly;
 };
 

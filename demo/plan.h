@@ -85,6 +85,26 @@ class HandPlan {
 void shape_movement(HandPlan::Piece& piece, Side side, std::int64_t split, float sink, double frames_per_second,
                     Random& random);
 
+/// The pieces of one hand, joined end to end from frame 0.
+class PieceChain {
+ public:
+  PieceChain(Side side, double frames_per_second) : side_(side), fps_(frames_per_second) {}
+
+  /// Adds a piece to another end, unless there is no time for it.
+  void add(double until, const HandPlan::End& to);
+  double end() const noexcept { return end_; }  ///< frame
+  const HandPlan::End& now() const noexcept { return now_; }
+  HandPlan::Piece& last() { return pieces_.back(); }
+  std::vector<HandPlan::Piece> take() { return std::move(pieces_); }
+
+ private:
+  Side side_;
+  double fps_;
+  std::vector<HandPlan::Piece> pieces_;
+  double end_ = 0;
+  HandPlan::End now_ = {.rest = Rest::hips};
+};
+
 /// The handshape at an end of a piece.
 Handshape shape_of(const HandPlan::End& end, Side side);
 

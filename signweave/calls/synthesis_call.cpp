@@ -80,6 +80,11 @@ Synthesized run(const Database& database, const SignCall& call, std::int64_t mos
              return one.curve.name;
            }) != call.expressions.end();
   };
+  words.near_expressions = [&](std::string_view name) {
+    std::vector<std::string> names;
+    for (const NamedExpression& one : call.expressions) names.push_back(one.curve.name);
+    return near_matches(name, names);
+  };
   Utterance utterance = parse_utterance(call.utterance, words);
   std::vector<Notice> folded;
   if (call.missing == "fold") utterance = with_folded_glosses(utterance, *database.segments(), folded);

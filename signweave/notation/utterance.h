@@ -194,6 +194,8 @@ struct UtteranceWords {
   std::function<bool(std::string_view)> is_gloss;
   /// Whether an expression exists. Empty: true.
   std::function<bool(std::string_view)> is_expression;
+  /// The expressions whose names are similar, the nearest first. Called for those that do not exist. Empty: none.
+  std::function<std::vector<std::string>(std::string_view)> near_expressions = {};
   /// The text follows other places, so a hand can be held in its first one.
   bool follows = false;
 };

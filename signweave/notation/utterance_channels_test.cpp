@@ -191,6 +191,20 @@ TEST(UtteranceChannels, OnlyTheWordsOfTheirFunctionAreExpressions) {
   EXPECT_THAT(fault_in("{brows down: A}", known), StartsWith("utterance:1:2: no expression 'brows down'"));
 }
 
+TEST(UtteranceChannels, AnUnknownExpressionIsAnsweredWithSimilarOnes) {
+  UtteranceWords known{.is_gloss = {}, .is_expression = [](std::string_view) { return false; }};
+  std::vector<std::string> near = {"brows up"};
+  known.near_expressions = [&](std::string_view) { return near; };
+  EXPECT_EQ(fault_in("A{brows  upp +0 -40}", known),
+            "utterance:1:3: no expression 'brows upp'; did you mean brows up?");
+  EXPECT_EQ(mended("A{brows  upp +0 -40}", known), "A{brows up +0 -40}");
+  EXPECT_EQ(mended("A{brows ..+1 upp} B", known), "A{} B");
+  near.emplace_back("brows");
+  EXPECT_EQ(fault_in("{brow: A}", known), "utterance:1:2: no expression 'brow'; did you mean brows up or brows?");
+  near = {"left eye"};
+  EXPECT_EQ(mended("{eye: A}", known), "{\"left eye\": A}");
+}
+
 TEST(UtteranceChannels, QuotesSettleTheRest) {
   EXPECT_EQ(to_string(parse_utterance("\"[X]\" \"{A}\"#2 \"A{b\" \"A\"\"B C\"")),
             "\"[X]\" \"{A}\"#2 \"A{b\" \"A\"\"B C\"");

@@ -65,6 +65,7 @@ class OptionsReader {
   bool take_gaze(const RawOption& raw, NonManual& non_manual);
   bool take_mouthing(const RawOption& raw, NonManual& non_manual);
   bool take_expression(const RawOption& raw, NonManual& non_manual);
+  void report_unknown_expression(const RawOption& raw, const std::string& name);
 
   Cursor& cursor_;
   OptionsOf of_;
@@ -293,10 +294,23 @@ bool OptionsReader::take_expression(const RawOption& raw, NonManual& non_manual)
     return false;
   }
   if (!cursor_.words().is_expression || cursor_.words().is_expression(non_manual.what)) return true;
-  cursor_.report(unknown_expression, raw.at,
-                 fmt::format("no expression '{}'; name one that exists, or quote the word if it is a gloss",
-                             printable(non_manual.what)));
+  report_unknown_expression(raw, non_manual.what);
   return false;
+}
+
+void OptionsReader::report_unknown_expression(const RawOption& raw, const std::string& name) {
+  const WordSpan at{raw.tokens.front().at.begin, raw.tokens.back().at.end};
+  std::vector<std::string> near;
+  if (cursor_.words().near_expressions) near = cursor_.words().near_expressions(name);
+  if (near.empty()) {
+    return cursor_.report(
+        unknown_expression, at,
+        fmt::format("no expression '{}'; name one that exists, or quote the word if it is a gloss", printable(name)));
+  }
+  const bool split = raw.extent && raw.extent->at.begin < at.end;  // by its end
+  cursor_.report(unknown_expression, at,
+                 fmt::format("no expression '{}'; did you mean {}?", printable(name), either_of(near)),
+                 near.size() == 1 && !split ? expression_text(near.front()) : std::string());
 }
 
 bool OptionsReader::take_what(const RawOption& raw, NonManual& non_manual) {

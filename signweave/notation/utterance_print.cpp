@@ -7,6 +7,33 @@
 #include "signweave/notation/utterance_word.h"
 
 namespace signweave {
+namespace utterances {
+namespace {
+
+/// True if a word is read as one of an expression's name.
+bool is_expression_word(std::string_view word, bool first) {
+  constexpr std::array<std::string_view, 7> kReserved = {"dominant", "weak", "right", "left",
+                                                         "fingers",  "gaze", "mouth"};
+  return !word.empty() && word.find_first_of("[]{};:\"") == word.npos && !word.starts_with("..") &&
+         word.find_first_of("@+-") != 0 && word != "hold" &&
+         !(first && std::ranges::find(kReserved, word) != kReserved.end());
+}
+
+}  // namespace
+
+std::string expression_text(const std::string& name) {
+  std::string_view rest = name;
+  for (bool first = true;; first = false) {
+    const std::size_t blank = std::min(rest.find(' '), rest.size());
+    const std::string_view word = rest.substr(0, blank);
+    if (!is_expression_word(word, first) || std::ranges::any_of(word, is_blank)) return in_quotes(name);
+    if (blank == rest.size()) return name;
+    rest.remove_prefix(blank + 1);
+  }
+}
+
+}  // namespace utterances
+
 namespace {
 
 using namespace utterances;
@@ -29,26 +56,6 @@ std::string signs_text(const std::vector<PartSign>& signs) {
     }
   }
   return text;
-}
-
-/// True if a word is read as one of an expression's name.
-bool is_expression_word(std::string_view word, bool first) {
-  constexpr std::array<std::string_view, 7> kReserved = {"dominant", "weak", "right", "left",
-                                                         "fingers",  "gaze", "mouth"};
-  return !word.empty() && word.find_first_of("[]{};:\"") == word.npos && !word.starts_with("..") &&
-         word.find_first_of("@+-") != 0 && word != "hold" &&
-         !(first && std::ranges::find(kReserved, word) != kReserved.end());
-}
-
-std::string expression_text(const std::string& name) {
-  std::string_view rest = name;
-  for (bool first = true;; first = false) {
-    const std::size_t blank = std::min(rest.find(' '), rest.size());
-    const std::string_view word = rest.substr(0, blank);
-    if (!is_expression_word(word, first) || std::ranges::any_of(word, is_blank)) return in_quotes(name);
-    if (blank == rest.size()) return name;
-    rest.remove_prefix(blank + 1);
-  }
 }
 
 std::string non_manual_text(const NonManual& one, std::string_view extent) {

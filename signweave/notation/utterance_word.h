@@ -125,6 +125,8 @@ std::optional<BodyPart> body_part_of(std::string_view label);
 bool is_hand(BodyPart part) noexcept;
 /// "+200" or "-40"; none if it is not such a number of at most kMostUtteranceOffset.
 std::optional<Milliseconds> offset_of(std::string_view text);
+/// The name of an expression as an option, in quotes if it needs them.
+std::string expression_text(const std::string& name);
 /// Reports a label that is no part.
 void report_unknown_part(Cursor& cursor, WordSpan span, std::string_view label);
 /// False if `part` cannot rest, although `reading` has a rest; reports it. `begin` is that of the part.

@@ -15,9 +15,9 @@ constexpr std::size_t kMostNamed = 8;  // in one line
 
 using FoldedGlosses = std::unordered_map<std::string, std::vector<std::string>>;  // by loose form
 
-bool is_there(const Place& place, const Segments& segments) {
-  if (place.kind != Place::Kind::gloss) return true;
-  const std::string form = match_form(place.gloss.gloss);
+bool is_there(const SignRef& sign, const Segments& segments) {
+  if (sign.kind != SignRef::Kind::gloss) return true;
+  const std::string form = match_form(sign.gloss.gloss);
   return std::ranges::any_of(segments.members(), [&](const Segments::Member& member) {
     const std::uint32_t label = member.table.find_text(form);
     if (label == SegmentTable::kNone) return false;
@@ -51,14 +51,37 @@ MissingGloss joined_from(const Utterance& utterance, std::size_t place, const st
   return best;
 }
 
+/// The signs of parts whose glosses are missing, without matches.
+std::vector<MissingGloss> missing_in_parts(const Utterance& utterance, const Segments& segments) {
+  std::vector<MissingGloss> missing;
+  for (std::size_t i = 0; i < utterance.places.size(); ++i) {
+    const std::vector<PlacePart>& parts = utterance.places[i].parts;
+    for (std::size_t part = 0; part < parts.size(); ++part) {
+      for (std::size_t k = 0; k < parts[part].signs.size(); ++k) {
+        const PartSign& one = parts[part].signs[k];
+        if (one.rest || is_there(one.sign, segments)) continue;
+        missing.push_back({.place = i, .gloss = one.sign.gloss.gloss, .part = PartSignNumber{part, k}});
+      }
+    }
+  }
+  return missing;
+}
+
+/// Those of places, then those of parts, each in the order of the utterance.
 std::vector<MissingGloss> missing_of(const Utterance& utterance, const Segments& segments) {
   std::vector<bool> there;
   for (const Place& place : utterance.places) there.push_back(is_there(place, segments));
   std::vector<MissingGloss> missing;
-  if (std::ranges::find(there, false) == there.end()) return missing;
+  std::vector<MissingGloss> in_parts = missing_in_parts(utterance, segments);
+  if (in_parts.empty() && std::ranges::find(there, false) == there.end()) return missing;
   const std::vector<std::string> glosses = segments.glosses();
   FoldedGlosses folded;
   for (const std::string& gloss : glosses) folded[loose_form(gloss)].push_back(gloss);
+  const auto match = [&](MissingGloss& one) {
+    const auto found = folded.find(loose_form(one.gloss));
+    one.folds = found != folded.end();
+    one.matches = one.folds ? found->second : near_matches(one.gloss, glosses);
+  };
   for (std::size_t i = 0; i < utterance.places.size();) {
     if (MissingGloss joined = joined_from(utterance, i, there, folded); !joined.matches.empty()) {
       i += joined.places;
@@ -67,12 +90,14 @@ std::vector<MissingGloss> missing_of(const Utterance& utterance, const Segments&
     }
     if (!there[i]) {
       MissingGloss one{.place = i, .gloss = utterance.places[i].gloss.gloss};
-      const auto found = folded.find(loose_form(one.gloss));
-      one.folds = found != folded.end();
-      one.matches = one.folds ? found->second : near_matches(one.gloss, glosses);
+      match(one);
       missing.push_back(std::move(one));
     }
     ++i;
+  }
+  for (MissingGloss& one : in_parts) {
+    match(one);
+    missing.push_back(std::move(one));
   }
   return missing;
 }
@@ -85,10 +110,15 @@ Utterance suggestion_for(const Utterance& utterance, const std::vector<MissingGl
   for (std::size_t i = 0; i < utterance.places.size(); ++i) {
     now_at[i] = result.places.size();
     result.places.push_back(utterance.places[i]);
-    if (next == missing.end() || next->place != i) continue;
+    if (next == missing.end() || next->part || next->place != i) continue;
     if (!next->matches.empty()) result.places.back().gloss.gloss = next->matches.front();
     for (std::size_t joined = 1; joined < next->places; ++joined) now_at[++i] = result.places.size() - 1;
     ++next;
+  }
+  for (; next != missing.end(); ++next) {
+    if (next->matches.empty()) continue;
+    PlacePart& part = result.places[now_at[next->place]].parts[next->part->part];
+    part.signs[next->part->sign].sign.gloss.gloss = next->matches.front();
   }
   for (std::size_t i = 0; i < utterance.places.size(); ++i) {
     for (PlacePart& part : result.places[now_at[i]].parts) {

@@ -86,6 +86,13 @@ TEST(MissingGlosses, AreFoldedIfExactlyOneGlossMatches) {
   const Utterance in_channels = parse_utterance("{neg: le mans vannes} MATIN{weak hold ..+1} ete");
   EXPECT_EQ(to_string(with_folded_glosses(in_channels, corpus(), notices)),
             "{neg: \"LE MANS\" VANNES} MATIN{weak hold ..+1} ÉTÉ");
+  const Utterance in_parts =
+      parse_utterance("[vannes ete | weak: vannes rest matin#2 | head: ete] [MATIN | weak: Matin]");
+  notices.clear();
+  EXPECT_EQ(to_string(with_folded_glosses(in_parts, corpus(), notices)),
+            "[VANNES ÉTÉ | weak: VANNES rest MATIN#2 | head: ÉTÉ] [MATIN | weak: MATIN]");
+  EXPECT_EQ(notices.size(), 6u);
+  EXPECT_EQ(fault_of("[ete | weak: vanes]").suggestion, "[ÉTÉ | weak: VANNES]");
   EXPECT_THROW(with_folded_glosses(parse_utterance("vanes"), corpus(), notices), MissingGlosses)
       << "similar is not the same";
   EXPECT_THROW(with_folded_glosses(parse_utterance("deja"), corpus(), notices), MissingGlosses) << "two glosses match";

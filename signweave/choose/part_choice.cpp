@@ -4,7 +4,6 @@
 
 #include <algorithm>
 
-#include "signweave/choose/missing_glosses.h"
 #include "signweave/core/error.h"
 #include "signweave/core/text.h"
 #include "signweave/database/signer_dominance.h"
@@ -88,15 +87,6 @@ Channel channel_of(BodyPart part, Side dominant) noexcept {
 }
 
 std::vector<PartChoice> part_choices(const Contents& contents, const Utterance& utterance, Side dominant) {
-  Utterance all;  // every sign of a part, to report all that are missing at once
-  for (const Place& place : utterance.places) {
-    for (const PlacePart& part : place.parts) {
-      for (const PartSign& sign : part.signs) {
-        if (!sign.rest) all.places.push_back({{sign.sign}, Milliseconds(0), {}, {}});
-      }
-    }
-  }
-  if (!all.places.empty()) require_glosses(all, contents.segments);
   std::vector<PartChoice> choices;
   for (std::size_t i = 0; i < utterance.places.size(); ++i) {
     const Place& place = utterance.places[i];

@@ -27,7 +27,7 @@ struct PartChoice {
   std::vector<std::vector<ClipSync>> sync;  ///< [sign]; `with` is a place. Of the first, empty: it begins with the part
   std::vector<bool> continues = {};         ///< [sign] see MotionClip; empty: none
 };
-/// `dominant` is the dominant hand of places that name none. Throws MissingGlosses for unknown glosses,
+/// `dominant` is the dominant hand of places that name none. Throws Error{not_found} for unknown glosses,
 /// Error{bad_input} for parts that name the same channel of a place twice.
 std::vector<PartChoice> part_choices(const Contents& contents, const Utterance& utterance, Side dominant);
 

@@ -85,6 +85,30 @@ TEST(ChannelsTest, ARecordingTakenApartAndComposedAgainIsTheRecording) {
   }
 }
 
+TEST(ChannelsTest, ARecordingTakenApartAtAnyRateIsTheRecording) {
+  const TestFolder folder;
+  Database::create(folder / "db", {});
+  Database database(folder / "db", kv::Access::read_write);
+  // A recording of 100 frames a second as if it were of 2,400: ties between the hands are no whole milliseconds.
+  const demo::SyntheticRecording made = demo::make_recording(demo::corpus_scripts(2).front(), {100, 1}, 1);
+  const std::int64_t frames = made.motion.frame_count();
+  Motion motion(made.motion.shared_skeleton(), {2400, 1}, frames);
+  BorrowedSource(made.motion).read({0, frames}, motion.poses({0, frames}));
+  AnnotationDocument document = of_hands(made.document, guess_tier_names(made.document));
+  for (Tier& tier : document.tiers) {
+    for (Annotation& one : tier.annotations) one.span = {one.span.begin / 24, one.span.end / 24};
+  }
+  TierNames tiers = guess_tier_names(document);
+  Recording recording{.name = "fast"};
+  recording.motion = MotionPart{.motion = motion};
+  recording.annotation = AnnotationPart{.document = std::move(document), .tiers = std::move(tiers)};
+  recording.clock = {.frame_time = Seconds(1.0 / 2400)};
+  database.put(recording);
+  const Synthesized again = recompose(database, "fast");
+  EXPECT_TRUE(same_bits(again.result.motion, motion));
+  EXPECT_EQ(lanes_that_differ(again.result.score).size(), 1u);
+}
+
 TEST(ChannelsTest, AHandSaysAnotherSign) {
   const Decomposed before = decompose(*corpus().snapshot().shared_contents(), "mains");
   ASSERT_EQ(before.parts.size(), 1u);

@@ -18,9 +18,9 @@ std::string quoted_name(const MotionClip& clip);
 struct ClipSync {
   enum class Anchor : std::uint8_t { begin, end };
   Anchor anchor = Anchor::begin;
-  std::size_t with = 0;    ///< number of the whole-body clip
-  Milliseconds offset{0};  ///< from its anchor to the same one of the channel's clip
-  bool at_least = false;   ///< the channel's clip may come later
+  std::size_t with = 0;   ///< number of the whole-body clip
+  Seconds offset{0};      ///< from its anchor to the same one of the channel's clip, exact at any frame rate
+  bool at_least = false;  ///< the channel's clip may come later
 };
 
 /// A clip that one channel shows instead of some whole-body clips.

@@ -154,8 +154,8 @@ class Composer {
     return at->second;
   }
 
-  std::int64_t frames_in(Milliseconds time) const {
-    return std::llround(Seconds(time).count() / options_.tempo * settings_.rate.hertz());
+  std::int64_t frames_in(Seconds time) const {
+    return std::llround(time.count() / options_.tempo * settings_.rate.hertz());
   }
 
   /// Each clip must come late enough after the one before it in every lane, and with those that it is tied to.
@@ -197,7 +197,7 @@ class Composer {
     if (at_end) offset += placed_[sync.with].core_frames - placed_[clip].core_frames;
     const std::string text =
         fmt::format("{} {} {}{}", name(clip), at_end ? "ends with" : "begins with", name(sync.with),
-                    sync.offset == Milliseconds(0) ? std::string() : fmt::format(" {:+} ms", sync.offset.count()));
+                    sync.offset == Seconds(0) ? std::string() : fmt::format(" {:+.7g} ms", 1000 * sync.offset.count()));
     all.push_back({{sync.with, clip, offset}, text});
     if (!sync.at_least) all.push_back({{clip, sync.with, -offset}, text});
   }

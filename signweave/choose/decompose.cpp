@@ -59,8 +59,8 @@ std::vector<Candidate> consecutive(const Contents& contents, std::size_t recordi
 }
 
 /// The frames between two moments of a recording, as time of a score at tempo 1.
-Milliseconds time_between(std::int64_t begin, std::int64_t end, FrameRate rate) {
-  return Milliseconds(std::llround(1000.0 * static_cast<double>(end - begin) / rate.hertz()));
+Seconds time_between(std::int64_t begin, std::int64_t end, FrameRate rate) {
+  return Seconds(static_cast<double>(end - begin) / rate.hertz());
 }
 
 /// The last place whose core has begun at a frame, or the first.

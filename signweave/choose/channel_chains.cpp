@@ -75,10 +75,15 @@ std::vector<ChannelChain> channel_chains(const ChannelParts& parts, const std::v
     ChainEditor editor(chain, clips);
     for (std::size_t i = known; i < parts.clips.size(); ++i) {
       const ChannelClip& part = parts.clips[i];
-      if (part.channel == channel) editor.replace(body + i, part.first, part.last);
+      if (part.channel == channel && !part.lower) editor.replace(body + i, part.first, part.last);
     }
     for (const ChannelHold& held : parts.holds) {
       if (held.channel == channel) editor.hold(held.from, held.until);
+    }
+    for (std::size_t i = 0; i < parts.clips.size(); ++i) {
+      const ChannelClip& part = parts.clips[i];
+      if (part.channel != channel || !part.lower) continue;
+      chain.links.push_back({.clip = body + i, .held_until = {}, .first = part.first, .last = part.last, .own = true});
     }
   };
   std::vector<ChannelLink> whole;

@@ -30,7 +30,8 @@ struct ChannelClip {
   std::size_t first = 0;  ///< number of the first whole-body clip that the channel does not show
   std::size_t last = 0;   ///< inclusive; consecutive clips of one channel may have the same range
   std::vector<ClipSync> sync;
-  bool fill = false;  ///< its core is stretched to that of clip `first`
+  bool fill = false;   ///< its core is stretched to that of clip `first`
+  bool lower = false;  ///< the last frames of the last whole-body clip's retraction, shown after a hold until its end
 };
 
 /// A pose that one channel holds.

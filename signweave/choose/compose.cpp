@@ -20,6 +20,9 @@
 namespace signweave {
 namespace {
 
+/// A hand that joins the body's last retraction shows so much of it.
+constexpr Seconds kLowered{0.05};
+
 /// A transition may be this much longer than its usual length before its first pose is held instead. (ours)
 constexpr double kLongest = 1.5;
 
@@ -186,6 +189,12 @@ class Composer {
     }
     for (std::size_t i = 0; i < parts_.clips.size(); ++i) {
       if (fixed_[body_ + i]) continue;
+      if (parts_.clips[i].lower) {  // it ends with the body's retraction
+        const std::size_t last = body_ - 1;
+        const PlacedClip& lowered = placed_[body_ + i];
+        const std::int64_t begin = placed_[last].retraction - lowered.core_frames - lowered.retraction;
+        all.push_back({{last, body_ + i, placed_[last].core_frames + begin}, "the held hand is lowered"});
+      }
       for (const ClipSync& sync : parts_.clips[i].sync) tie(body_ + i, sync, all);
     }
     return all;
@@ -265,6 +274,8 @@ class Composer {
     const std::int64_t time = placed_[to.clip].core - placed_[from.clip].core_end();
     const bool has_time_left = static_cast<double>(time) > kLongest * static_cast<double>(length);
     if (is_held || has_time_left || clips_[from.clip].at_rest) made.held = time - length;
+    const bool lowers = to.clip >= body_ && parts_.clips[to.clip - body_].lower;
+    if (lowers) made.held = placed_[body_ - 1].core_end() - placed_[from.clip].core_end();
     const auto [at, is_new] = cuts_.try_emplace({from.clip, to.clip, made.held});
     if (is_new) {
       if (made.held == 0 && time == length && !is_held) {
@@ -311,8 +322,28 @@ class Composer {
   std::map<std::tuple<std::size_t, std::size_t, std::int64_t>, JunctionCuts> cuts_;
 };
 
+/// The parts, and for each pose that is held until the last clip ends, what its hand does after that.
+ChannelParts with_lowered(const std::vector<MotionClip>& clips, ChannelParts parts) {
+  const std::size_t last = clips.size() - 1;
+  for (const ChannelHold& held : parts.holds) {
+    MotionClip lowered = clips[last];
+    const auto frames = std::int64_t{std::llround(kLowered.count() * lowered.source->rate().hertz())};
+    lowered.whole.begin = lowered.core.end;
+    if (held.until != last || lowered.whole.size() <= frames) continue;
+    lowered.core = {lowered.whole.end - std::max<std::int64_t>(frames, 1), lowered.whole.end};
+    lowered.at_rest = true;
+    lowered.signs.clear();
+    lowered.sign_places.clear();
+    lowered.junction = {};
+    lowered.continues = false;
+    parts.clips.push_back(
+        {.channel = held.channel, .clip = std::move(lowered), .first = last, .last = last, .sync = {}, .lower = true});
+  }
+  return parts;
+}
+
 /// Lets hands keep the places that they had in their recordings.
-void set_places(Score& score, const std::vector<FoundPlace>& places) {
+void set_places(Score& score, const std::vector<MotionClip>& clips, const std::vector<FoundPlace>& places) {
   for (const FoundPlace& found : places) {
     const PlaceCorrection& correction = found.correction;
     if (correction.why_not && clips[found.clip].at_rest) continue;  // it rests as the copied arm has it
@@ -335,10 +366,11 @@ void set_places(Score& score, const std::vector<FoundPlace>& places) {
 
 }  // namespace
 
-Synthesis compose(const std::vector<MotionClip>& clips, const ChannelParts& parts, const ConcatenateOptions& options,
+Synthesis compose(const std::vector<MotionClip>& clips, const ChannelParts& wanted, const ConcatenateOptions& options,
                   Synthesis used) {
   const bool continues = std::ranges::any_of(clips, &MotionClip::continues);
-  if (parts.empty() && !continues) return concatenate(clips, options, std::move(used));
+  if (wanted.empty() && !continues) return concatenate(clips, options, std::move(used));
+  const ChannelParts parts = with_lowered(clips, wanted);
   std::vector<MotionClip> all = clips;
   for (const ChannelClip& part : parts.clips) all.push_back(part.clip);
   const JointSetup setup(all, options);
@@ -349,7 +381,7 @@ Synthesis compose(const std::vector<MotionClip>& clips, const ChannelParts& part
   out.motion = std::move(used.motion);
   out.sources = std::move(used.sources);
   Renderer renderer(plan_of(score, composer.clips()), setup.settings);
-  set_places(score, renderer.find_places(static_cast<ClipId>(clips.size()), out.motion));
+  set_places(score, composer.clips(), renderer.find_places(static_cast<ClipId>(clips.size()), out.motion));
   check(score, "score");
   render_over_body(std::move(score), renderer, composer.clips(), out);
   return out;
@@ -368,7 +400,7 @@ Score compose_after(const Continuation& before, const std::vector<MotionClip>& c
   const std::size_t known = body + before.known_parts;
   if (known == clips.size()) return score;
   Renderer renderer(plan_of(score, composer.clips()), settings, Renderer::Tracks::left_out);
-  set_places(score, renderer.find_places(static_cast<ClipId>(known)));
+  set_places(score, composer.clips(), renderer.find_places(static_cast<ClipId>(known)));
   return score;
 }
 

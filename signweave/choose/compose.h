@@ -14,6 +14,8 @@ namespace signweave {
 /// held until its transition begins, or the transition is up to half as long again. A hand goes to its rest once the
 /// place before the rest's has ended, and leaves it as late as its next clip allows; nothing else waits for that.
 ///
+/// A pose that is held until the last clip ends is let go: the hand joins the body's retraction, if that was captured.
+///
 /// Clips that continue the one before them (MotionClip::continues) keep the recorded transition. Without parts and such
 /// clips, the result is that of `concatenate`. Throws as it does, and Error{bad_input} if parts contradict each
 /// other; the message names those that do.

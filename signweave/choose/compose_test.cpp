@@ -126,8 +126,31 @@ TEST(ComposeTest, AHandHoldsItsPoseOverPlaces) {
   ASSERT_EQ(left.items.size(), 4u);  // A, held, transition, C
   EXPECT_TRUE(std::holds_alternative<Hold>(left.items[1].what));
   EXPECT_GE(left.items[1].at.end, made.score.clips[1].at.end);
-  const Synthesis to_end = compose(three_signs(), {{}, {{.channel = Channel::left, .from = 0, .until = 2}}}, options());
-  EXPECT_EQ(item_at(to_end.score, Channel::left, 1), (FrameRange{to_end.score.clips[0].at.end, to_end.score.frames}));
+}
+
+TEST(ComposeTest, AHandHeldUntilTheEndFallsWithTheBody) {
+  const ChannelParts held{{}, {{.channel = Channel::left, .from = 0, .until = 2}}};
+  std::vector<MotionClip> clips = three_signs();
+  clips[2] = sign("C", 1.7f, 25, 50, 70);
+  const Synthesis plain = compose(clips, {}, options());
+  const Synthesis made = compose(clips, held, options());
+  ASSERT_EQ(lane_of(made.score, Channel::left)->items.size(), 4u);  // A, held, transition, the body's retraction
+  EXPECT_EQ(item_at(made.score, Channel::left, 1),
+            (FrameRange{made.score.clips[0].at.end, made.score.clips[2].at.end}));
+  EXPECT_EQ(item_at(made.score, Channel::left, 2).end, made.score.frames - 5);
+  EXPECT_EQ(made.score.frames, plain.score.frames);
+  const auto arm = static_cast<std::size_t>(*person()->find("LeftArm"));
+  const auto at_end = [&](const Synthesis& one) { return one.motion.pose(one.score.frames - 1).rotations[arm]; };
+  EXPECT_LT(testing_motion::angle(at_end(made), at_end(plain)), 1e-3);
+  // Without enough of a retraction the body waits for it.
+  const Synthesis later = compose(three_signs(), held, options());
+  EXPECT_EQ(item_at(later.score, Channel::left, 2).size(), 30);
+  EXPECT_EQ(later.score.frames, later.score.clips[2].at.end + 35);
+  EXPECT_EQ(item_at(later.score, Channel::body, 5).size(), 25);
+  // Without one it stays up.
+  clips[2] = sign("C", 1.7f, 25, 50, 0);
+  const Synthesis up = compose(clips, held, options());
+  EXPECT_EQ(item_at(up.score, Channel::left, 1), (FrameRange{up.score.clips[0].at.end, up.score.frames}));
 }
 
 TEST(ComposeTest, FingersFillTheStrokeOfAnotherSign) {
@@ -320,7 +343,7 @@ RC_GTEST_PROP(ComposeTest, EveryLaneShowsItsStrokesAsCapturedAndMovesWithoutJump
   } catch (const Error&) {
     return;
   }
-  const std::vector<MotionClip> clips = all_clips(from);
+  const std::vector<MotionClip> clips = read_clips(made->score, from);
   for (const Lane& lane : made->score.lanes) {
     const std::vector<std::size_t> joints = joints_of(lane.channel, made->score);
     for (const Item& item : lane.items) {

@@ -353,6 +353,24 @@ TEST(ChannelsTest, LidsShutAtPausesIfAskedFor) {
   EXPECT_TRUE(synthesize(corpus(), utterance).result.score.curves.empty());
 }
 
+TEST(ChannelsTest, TheSignerLooksAtTheAddresseeAtBoundariesIfPlanned) {
+  Utterance utterance{.places = {place_of({"DEMAIN"}), place_of({"MATIN"}), place_of({"PLUIE"})}};
+  utterance.places[2].pause_before = kFullStop;
+  utterance.non_manuals = {{.kind = NonManual::Kind::gaze, .what = "left", .first = 1, .last = 1}};
+  const Score asked = synthesize(corpus(), utterance).result.score;
+  ASSERT_EQ(asked.curves.size(), 1u);
+  SynthesisOptions options;
+  options.non_manuals.gaze = true;
+  const Score score = synthesize(corpus(), utterance, options).result.score;
+  EXPECT_EQ(score.curves.back(), asked.curves[0]) << "shown over the plan";
+  const auto in_pause = std::ranges::find_if(score.curves, [&](const AuthoredCurve& one) {
+    return one.curve.name == "addressee" && one.at.begin == score.clips[1].at.end;
+  });
+  ASSERT_NE(in_pause, score.curves.end());
+  EXPECT_LE(in_pause->at.end, score.clips[2].at.begin);
+  EXPECT_EQ(in_pause->first, 2u);
+}
+
 std::vector<std::string> codes_of(const Utterance& utterance) {
   std::vector<std::string> codes;
   for (const Notice& notice : synthesize(corpus(), utterance).result.notices) {

@@ -15,9 +15,9 @@ namespace signweave::cli {
 namespace {
 
 /// Options whose values a score has already decided. (Passed to CLI11, its help would list them all.)
-constexpr const char* kDecided[] = {"--transition", "--duration", "--tempo",   "--align",      "--handedness",
-                                    "--junction",   "--rate",     "--missing", "--explain",    "--mouthing",
-                                    "--language",   "--blinks",   "--strict",  "--expressions"};
+constexpr const char* kDecided[] = {"--transition", "--duration", "--tempo",   "--align",       "--handedness",
+                                    "--junction",   "--rate",     "--missing", "--explain",     "--mouthing",
+                                    "--language",   "--blinks",   "--strict",  "--expressions", "--non-manuals"};
 
 /// "bvh" of "out.bvh", and what is written alongside.
 std::vector<std::string> extensions_of(const Delivery& delivery) {

@@ -71,7 +71,8 @@ Synthesized run(const Database& database, const SignCall& call, std::int64_t mos
   SynthesisOptions options = options_of(call.how);
   options.most_frames = most_frames;
   options.non_manuals.expressions = call.expressions;
-  options.non_manuals.blinks = call.blinks;
+  options.non_manuals.gaze = call.non_manuals == "plan";
+  options.non_manuals.blinks = call.blinks || call.non_manuals == "plan";
   options.non_manuals.pronounce.source = *mouthing_source(call.mouthing);
   options.non_manuals.pronounce.language = *mouthing_language(call.language);
   UtteranceWords words = words_of(database);

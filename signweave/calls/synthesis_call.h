@@ -110,6 +110,7 @@ struct SignCall {
   std::string missing = "explain";
   std::string mouthing = "letters";
   std::string language = "fr";
+  std::string non_manuals = "asked";
   bool blinks = false;
   SynthesisChoices how;
   Expressions expressions = built_in_expressions();  ///< not a parameter: the command line reads them from a file
@@ -144,6 +145,12 @@ void fields(Visit& visit, SignCall& call) {
               .shows_default = true,
               .one_of = {"fr", "en", "de", "nl"}},
         call.language);
+  visit(Field{.name = "non_manuals",
+              .help = "which movements of face, gaze and head are shown over the captured ones: asked (those of the "
+                      "utterance), plan (also blinks, and looks at the addressee at pauses and at both ends)",
+              .shows_default = true,
+              .one_of = {"asked", "plan"}},
+        call.non_manuals);
   visit(Field{.name = "blinks", .help = "blink at pauses and where expressions and gazes end, as signers mostly do"},
         call.blinks);
   fields(visit, call.how);

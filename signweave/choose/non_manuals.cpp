@@ -83,6 +83,28 @@ TimedCurve curve_of(const NonManual& one, const PlaceTime& first, const PlaceTim
   return {};
 }
 
+/// Looks at the addressee at the begin, the pauses and the end of an utterance (plan_gaze).
+void add_gazes(const Utterance& utterance, const Score& score, const PlaceTimes& times,
+               std::vector<AuthoredCurve>& curves) {
+  std::vector<TimeSpan> units;
+  std::vector<std::size_t> first;  // [unit] place
+  for (std::size_t place = 0; place < utterance.places.size(); ++place) {
+    const PlaceTime time = times.at(place);
+    if (place == 0 || utterance.places[place].pause_before > Milliseconds(0)) {
+      units.push_back({time.preparation, time.stroke.end});
+      first.push_back(place);
+    }
+    units.back().end = std::max(units.back().end, time.stroke.end);
+  }
+  for (const TimeSpan& glance : plan_gaze({Milliseconds(0), times.ms(score.frames)}, units)) {
+    const auto next = std::ranges::lower_bound(units, glance.end, {}, &TimeSpan::begin);
+    const std::size_t place =
+        next == units.end() ? utterance.places.size() - 1 : first[static_cast<std::size_t>(next - units.begin())];
+    curves.push_back(
+        {.curve = gaze_at({0, 0}, "addressee"), .at = times.frames(glance), .first = place, .last = place});
+  }
+}
+
 /// Blinks at the pauses of an utterance and at the ends of its curves (plan_blinks).
 void add_blinks(const Utterance& utterance, const Score& score, const PlaceTimes& times,
                 std::vector<AuthoredCurve>& curves) {
@@ -115,6 +137,7 @@ std::vector<AuthoredCurve> author_non_manuals(const Utterance& utterance, const 
   const PlaceTimes times(score);
   Pronouncer pronouncer(options.pronounce);
   std::vector<AuthoredCurve> curves;
+  if (options.gaze) add_gazes(utterance, score, times, curves);  // what the text says is shown over them
   for (const NonManual& one : utterance.non_manuals) {
     TimedCurve made = curve_of(one, times.at(one.first), times.at(one.last), options, pronouncer, notices);
     if (tracks_of(made.curve).empty() && !made.curve.head.moves()) continue;  // nothing to be seen, such as no sounds

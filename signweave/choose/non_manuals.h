@@ -15,11 +15,12 @@ struct NonManualOptions {
   Expressions expressions = built_in_expressions();
   PronounceOptions pronounce;
   bool blinks = false;  ///< blink at pauses and where expressions and gazes end, and sometimes elsewhere
+  bool gaze = false;    ///< look at the addressee before the first sign, at pauses and after the last sign
 };
 
-/// The curves of an utterance's non-manuals in a score of it, and the blinks that were asked for. Adds what could not
-/// be mouthed as written to `notices`. Throws Error{not_found} for an unknown expression or gaze, with near matches;
-/// Error{bad_input} for a text that cannot be mouthed.
+/// The curves of an utterance's non-manuals in a score of it, and the gazes and blinks that are planned. Adds what
+/// could not be mouthed as written to `notices`. Throws Error{not_found} for an unknown expression or gaze, with near
+/// matches; Error{bad_input} for a text that cannot be mouthed.
 std::vector<AuthoredCurve> author_non_manuals(const Utterance& utterance, const Score& score,
                                               const NonManualOptions& options, std::vector<Notice>& notices);
 

@@ -205,7 +205,8 @@ Synthesized run(const Snapshot& snapshot, Wanted wanted, std::string_view edited
     }
   }
   std::function<std::vector<AuthoredCurve>(const Score&)> author;
-  if (wanted.utterance != nullptr && (!wanted.utterance->non_manuals.empty() || options.non_manuals.blinks)) {
+  const bool plans = options.non_manuals.blinks || options.non_manuals.gaze;
+  if (wanted.utterance != nullptr && (plans || !wanted.utterance->non_manuals.empty())) {
     author = [&](const Score& score) {
       return author_non_manuals(*wanted.utterance, score, options.non_manuals, notices);
     };

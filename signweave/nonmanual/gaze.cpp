@@ -70,6 +70,20 @@ Curve gaze_at(GazeDirection direction, std::string name) {
           .merge = Merge::replace};
 }
 
+std::vector<TimeSpan> plan_gaze(TimeSpan whole, std::span<const TimeSpan> units) {
+  std::vector<TimeSpan> glances;
+  const auto add = [&](TimeSpan span) {
+    if (span.duration() >= kShortestGlance) glances.push_back(span);
+  };
+  Milliseconds end = whole.begin;
+  for (const TimeSpan& unit : units) {
+    add({end, std::min(unit.begin, whole.end)});
+    end = std::max(end, unit.end);
+  }
+  add({end, whole.end});
+  return glances;
+}
+
 TimeSpan gaze_span(Milliseconds first_preparation, Milliseconds last_stroke_end) noexcept {
   return {first_preparation, last_stroke_end + kGazeStays};
 }

@@ -3,6 +3,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "signweave/nonmanual/curve.h"
 
@@ -35,5 +36,11 @@ Curve gaze_at(GazeDirection direction, std::string name);
 /// When a gaze accompanies signs: from the begin of the first preparation (or stroke, if it has none) to
 /// kGazeStays after the last stroke.
 TimeSpan gaze_span(Milliseconds first_preparation, Milliseconds last_stroke_end) noexcept;
+
+/// A glance at the addressee is at least this long.
+inline constexpr Milliseconds kShortestGlance{200};
+/// When a signer looks at the addressee at the boundaries of what is signed: before, between and after `units`, each
+/// from its first preparation to its last stroke's end, in order of time. Later units change nothing before them.
+std::vector<TimeSpan> plan_gaze(TimeSpan whole, std::span<const TimeSpan> units);
 
 }  // namespace signweave

@@ -87,5 +87,13 @@ TEST(FindGaze, KnowsDirectionsAndSaysWhatItCannotDo) {
   EXPECT_THAT(fault("hands"), HasSubstr("not possible yet"));
 }
 
+TEST(Gaze, IsPlannedAtTheAddresseeAtBoundaries) {
+  const std::vector<TimeSpan> units = {{250ms, 900ms}, {1'050ms, 2'000ms}, {2'800ms, 3'500ms}};
+  EXPECT_EQ(plan_gaze({0ms, 4'000ms}, units),
+            (std::vector<TimeSpan>{{0ms, 250ms}, {2'000ms, 2'800ms}, {3'500ms, 4'000ms}}));
+  EXPECT_EQ(plan_gaze({0ms, 1'000ms}, {}), (std::vector<TimeSpan>{{0ms, 1'000ms}}));
+  EXPECT_TRUE(plan_gaze({0ms, 1'000ms}, std::vector<TimeSpan>{{150ms, 1'200ms}}).empty());
+}
+
 }  // namespace
 }  // namespace signweave

@@ -31,7 +31,8 @@ TEST_P(PlayerChannels, ShowWhatTheirScoreRenders) {
         "VANNES MATIN{weak hold ..+2} PLUIE NANTES RENNES", "VANNES{weak hold ..} MATIN",
         "VANNES MATIN{fingers: PLUIE} RENNES", "VANNES [MATIN PLUIE | left: NANTES RENNES] VENT",
         "VANNES [MATIN | weak: PLUIE @begin+200] [PLUIE | weak: VENT @end] RENNES",
-        "MATIN{weak ..+1: PLUIE} VANNES{head: RENNES}", "VANNES{dominant left} MATIN"}) {
+        "MATIN{weak ..+1: PLUIE} VANNES{head: RENNES}", "VANNES [MATIN PLUIE | weak: VENT rest] RENNES",
+        "VANNES{dominant left} MATIN"}) {
     SCOPED_TRACE(text);
     ComparedPlayer stream({.idle = GetParam()});
     stream.player().sign(parse_utterance(text));

@@ -100,6 +100,7 @@ void LiveScore::add_parts(std::size_t first, std::size_t last, const std::vector
     const std::size_t place = first - before + part.part->place;
     clip->captured = clip_of(snapshot.contents(), part.candidate, place, part.mirrored);
     clip->captured.pause_before = Milliseconds(0);
+    clip->captured.at_rest = part.rest;
     clip->captured.sign_places.assign(part.candidate.signs.size(), place + queue_.forgotten());
     clips.parts.clips.push_back(channel_clip(part, clip_of_place));
     clips.of_parts.push_back(std::move(clip));

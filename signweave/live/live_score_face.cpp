@@ -22,7 +22,9 @@ constexpr Seconds kAfterLast{60.0};
 void LiveScore::author(std::int64_t from) {
   if (entries_.empty() || queue_.non_manuals().empty()) return;
   const std::size_t forgotten = queue_.forgotten_non_manuals();
-  Score times;  // in the utterance's time
+  NonManualOptions options = options_.synthesis.non_manuals;
+  options.gaze = options.blinks = false;  // what is planned needs the whole utterance; the living rest blinks
+  Score times;                            // in the utterance's time
   for (std::size_t i = 0; i < queue_.non_manuals().size(); ++i) {
     NonManual one = queue_.non_manuals()[i];
     const auto known = std::ranges::find(authored_, forgotten + i, &Authored::number);
@@ -34,8 +36,8 @@ void LiveScore::author(std::int64_t from) {
     one.first += queue_.forgotten();
     one.last += queue_.forgotten();
     std::vector<Notice> notices;
-    for (AuthoredCurve& curve : author_non_manuals({.places = {}, .holds = {}, .non_manuals = {one}}, times,
-                                                   options_.synthesis.non_manuals, notices)) {
+    for (AuthoredCurve& curve :
+         author_non_manuals({.places = {}, .holds = {}, .non_manuals = {one}}, times, options, notices)) {
       const std::int64_t shift = entries_.back().clip->placed.core - entries_.back().core;
       if (goes_on) {  // what was shown of it stays
         known->curve.at.end = std::max(curve.at.end, from - shift + 1);

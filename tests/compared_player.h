@@ -81,8 +81,8 @@ class ComparedPlayer {
   void compare(const ShownScore& live, std::int64_t before) {
     const Clip& first = live.score.clips.front();
     // A sign that is finished before another utterance: its frames are not all shown yet.
-    const bool is_finished = first.source.kind == SourceRef::Kind::shown &&
-                             before + first.core.size() - live.next > shown_.frame_count();
+    const bool is_finished =
+        first.source.kind == SourceRef::Kind::shown && before + first.core.size() - live.next > shown_.frame_count();
     if (is_finished) return;
     for (const Clip& clip : live.score.clips) ++seen_[static_cast<std::size_t>(clip.source.kind)];
     const Score read = score_from_json(json_of(live.score), "stream");
@@ -100,8 +100,9 @@ class ComparedPlayer {
       for (std::size_t joint = 0; joint < is.rotations.size(); ++joint) {
         const auto& a = is.rotations[joint].coeffs();
         const auto& b = expected.rotations[joint].coeffs();
-        ASSERT_TRUE(a == b || a == -b) << "frame " << before + frame << ", of the score " << live.next + frame << ", joint " << joint << ": " << a.transpose()
-                                       << " against " << b.transpose() << "\n"
+        ASSERT_TRUE(a == b || a == -b) << "frame " << before + frame << ", of the score " << live.next + frame
+                                       << ", joint " << joint << ": " << a.transpose() << " against " << b.transpose()
+                                       << "\n"
                                        << to_string(read);
       }
       ASSERT_TRUE(std::ranges::equal(is.translations, expected.translations)) << "frame " << before + frame;

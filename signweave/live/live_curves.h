@@ -1,8 +1,10 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "signweave/live/frame_ring.h"
@@ -27,6 +29,12 @@ class LiveCurves {
   void end_after(std::size_t place, std::int64_t frame, FrameRate rate);
   void clear() noexcept { set({}); }
 
+  /// Frames from `frame` on show something else than when they were read.
+  void change_from(std::int64_t frame) noexcept { changed_from_ = frame; }
+  std::int64_t take_changed_from() noexcept {
+    return std::exchange(changed_from_, std::numeric_limits<std::int64_t>::max());
+  }
+
   /// True if one of them is at one of these frames.
   bool cover(FrameRange frames) const noexcept;
   /// Shows them over frames that have the tracks that they set, as far as they are to be seen.
@@ -39,6 +47,7 @@ class LiveCurves {
   std::vector<AuthoredCurve> curves_;
   std::optional<CurveRenderer> renderer_;  ///< of curves_; none: not made yet
   Motion frames_;
+  std::int64_t changed_from_ = std::numeric_limits<std::int64_t>::max();
 };
 
 /// At least one.

@@ -96,7 +96,7 @@ void LiveScore::end_at_last_sign() {
   if (chain_.is_uniform()) {
     timeline_.append({end(), end() + tail().placed.retraction}, chain_.back());
   } else {
-    timeline_.append({end(), step_->end()}, step_->made, step_->begin);
+    timeline_.append({end(), last_sign_.step->end()}, last_sign_.step->made, last_sign_.step->begin);
   }
   state_ = State::ended;
   events_.push_back({.kind = PlayerEvent::Kind::end,
@@ -106,7 +106,6 @@ void LiveScore::end_at_last_sign() {
 
 void LiveScore::go_to_rest() {
   const ClipPtr rest = place_rest(*setup_);
-  rest->key = "rest";
   std::shared_ptr<const Motion> made = join(tail(), *rest);
   const std::int64_t made_frames = made->frame_count();
   timeline_.append({end(), rest->placed.core}, std::move(made));
@@ -248,17 +247,17 @@ void LiveScore::forget_places() {
   const std::size_t count = queue_.forget();
   if (count == 0) return;
   parts_.clear();
-  std::erase_if(entries_, [&](const Entry& entry) { return entry.first < count; });
-  for (Entry& entry : entries_) {
+  std::erase_if(round_.entries, [&](const Entry& entry) { return entry.first < count; });
+  for (Entry& entry : round_.entries) {
     entry.first -= count;
     entry.last -= count;
   }
-  if (!entries_.empty()) {
-    Entry& front = entries_.front();
+  if (!round_.entries.empty()) {
+    Entry& front = round_.entries.front();
     if (!front.step) front.begin = front.core - front.clip->placed.preparation;
     front.joined = false;
   }
-  std::erase_if(authored_, [&](const Authored& one) { return one.number < queue_.forgotten_non_manuals(); });
+  std::erase_if(round_.authored, [&](const Authored& one) { return one.number < queue_.forgotten_non_manuals(); });
 }
 
 void LiveScore::replace(const Utterance& utterance, std::int64_t next, const FrameRing& shown) {
@@ -266,10 +265,8 @@ void LiveScore::replace(const Utterance& utterance, std::int64_t next, const Fra
   const bool finished = finish_sign(next, shown);
   queue_.replace(utterance);
   parts_.clear();
-  entries_.clear();
-  last_round_.clear();
-  authored_.clear();
-  authored_before_.clear();
+  round_ = {};
+  last_round_ = {};
   last_sign_.signs.reset();
   if (finished || state_ == State::nothing) return;
   if (queue_.empty() && state_ != State::at_core) return;  // moving to rest, or at rest
@@ -279,7 +276,7 @@ void LiveScore::replace(const Utterance& utterance, std::int64_t next, const Fra
 
 /// If a sign's core is shown, ends the timeline with that sign, or immediately if it is long. Returns false otherwise.
 bool LiveScore::finish_sign(std::int64_t next, const FrameRing& shown) {
-  if (entries_.empty() && last_sign_.clip != nullptr && next >= last_sign_.clip->placed.core &&
+  if (round_.entries.empty() && last_sign_.clip != nullptr && next >= last_sign_.clip->placed.core &&
       next < last_sign_.clip->placed.core_end()) {  // as cut when the last utterance began
     end_with_last_sign();
     return true;
@@ -291,9 +288,9 @@ bool LiveScore::finish_sign(std::int64_t next, const FrameRing& shown) {
   std::optional<std::size_t> last_place;  // none: all its signs are finished
   FrameRange core = clip->captured.core;
   FrameRange whole = clip->captured.whole;
-  const auto entry = std::ranges::find(entries_, clip, &Entry::clip);
-  for (std::size_t place = entry == entries_.end() ? 1 : entry->first; entry != entries_.end() && place <= entry->last;
-       ++place) {
+  const auto entry = std::ranges::find(round_.entries, clip, &Entry::clip);
+  for (std::size_t place = entry == round_.entries.end() ? 1 : entry->first;
+       entry != round_.entries.end() && place <= entry->last; ++place) {
     const Candidate& candidate = queue_.chosen(place);
     if (next >= placed.frame_of(candidate.core.end)) continue;
     core.end = candidate.core.end;
@@ -326,7 +323,7 @@ bool LiveScore::finish_sign(std::int64_t next, const FrameRing& shown) {
   chain_.end_with(clip);
   chain_.replace_back(last);
   timeline_.replace(clip, last);
-  if (entry != entries_.end()) {
+  if (entry != round_.entries.end()) {
     curves_.end_after(last_place.value_or(entry->last + queue_.forgotten()), last->placed.core_end(),
                       setup_->header.rate);
   }
@@ -336,23 +333,21 @@ bool LiveScore::finish_sign(std::int64_t next, const FrameRing& shown) {
 }
 
 bool LiveScore::seek(std::int64_t at, std::int64_t next) {
-  if (entries_.empty()) return false;
+  if (round_.entries.empty()) return false;
   const auto end_of = [](const Entry& entry) { return entry.core + entry.clip->placed.core_frames; };
   // A loop that has just restarted: later places are found in the previous round.
-  const bool earlier = at >= end_of(entries_.back()) && !last_round_.empty();
-  const std::vector<Entry>& entries = earlier ? last_round_ : entries_;
+  const bool earlier = at >= end_of(round_.entries.back()) && !last_round_.entries.empty();
+  const std::vector<Entry>& entries = earlier ? last_round_.entries : round_.entries;
   at = std::clamp<std::int64_t>(at, entries.front().begin, end_of(entries.back()) - 1);
   std::size_t index = entries.size() - 1;
   while (index > 0 && entries[index].begin > at) --index;
   const Entry& entry = entries[index];
   if (entry.step) {
     if (earlier) {
-      entries_ = std::move(last_round_);
-      authored_ = std::move(authored_before_);
+      round_ = std::move(last_round_);
     }
     seek_in_step(index, at, next);
-    last_round_.clear();
-    authored_before_.clear();
+    last_round_ = {};
     return true;
   }
   const ClipPtr clip = entry.clip;
@@ -388,17 +383,15 @@ bool LiveScore::seek(std::int64_t at, std::int64_t next) {
   }
   timeline_.append({std::max(next, clip->placed.core), clip->placed.core_end()}, clip);
   if (earlier) {
-    entries_ = std::move(last_round_);
-    authored_ = std::move(authored_before_);
+    round_ = std::move(last_round_);
   }
-  last_round_.clear();
-  authored_before_.clear();
-  entries_.resize(index + 1);
-  queue_.continue_at(entries_.back().last + 1);
+  last_round_ = {};
+  round_.entries.resize(index + 1);
+  queue_.continue_at(round_.entries.back().last + 1);
   last_sign_ = {.clip = clip, .signs = {}};
   state_ = State::at_core;
   show_authored(next);
-  report_places(entries_.back(), next);
+  report_places(round_.entries.back(), next);
   return true;
 }
 
@@ -449,7 +442,8 @@ bool LiveScore::idle(std::int64_t frame) const noexcept {
 }
 
 Milliseconds LiveScore::end_of_last_sign() const noexcept {
-  return entries_.empty() ? Milliseconds(0) : time_of(entries_.back().core + entries_.back().clip->placed.core_frames);
+  return round_.entries.empty() ? Milliseconds(0)
+                                : time_of(round_.entries.back().core + round_.entries.back().clip->placed.core_frames);
 }
 
 Milliseconds LiveScore::time_of(std::int64_t frames) const noexcept {

@@ -2,7 +2,6 @@
 
 #include <cstdint>
 #include <deque>
-#include <limits>
 #include <map>
 #include <memory>
 #include <optional>
@@ -55,9 +54,7 @@ class LiveScore {
   std::shared_ptr<const MotionSource> rest() const noexcept { return setup_ ? setup_->living : nullptr; }
 
   /// The first frame that shows something else since this was called last; the last possible one if none does.
-  std::int64_t take_changed_from() noexcept {
-    return std::exchange(changed_from_, std::numeric_limits<std::int64_t>::max());
-  }
+  std::int64_t take_changed_from() noexcept { return curves_.take_changed_from(); }
 
   /// The end of the known timeline.
   std::int64_t end() const noexcept { return timeline_.end(); }
@@ -118,6 +115,11 @@ class LiveScore {
     AuthoredCurve curve;
     bool goes_on = false;  ///< its end is not known yet
   };
+  /// What was placed of an utterance.
+  struct Round {
+    std::vector<Entry> entries;
+    std::vector<Authored> authored;
+  };
   /// The tokens that parts of some places sign.
   struct PartsOfPlaces {
     std::shared_ptr<const Contents> contents;
@@ -129,6 +131,7 @@ class LiveScore {
   struct LastSign {
     ClipPtr clip;                    ///< null: none
     std::optional<Candidate> signs;  ///< the signs that neighbours may continue
+    StepPtr step = {};               ///< what it was signed with; null: by itself
   };
   /// Recordings with other skeletons.
   struct OtherBodies {
@@ -197,14 +200,12 @@ class LiveScore {
   State state_ = State::nothing;
   ClipChain chain_;  ///< ends with the tail; empty in State::nothing
   LastSign last_sign_;
-  StepPtr step_;                                ///< the last one, if the timeline ends with it
+
   std::map<std::size_t, PartsOfPlaces> parts_;  ///< by the first of their places
-  std::vector<Entry> entries_;                  ///< of this utterance, or of this round of a loop
-  std::vector<Entry> last_round_;               ///< of the previous round
-  std::vector<Authored> authored_;              ///< of this utterance, or of this round
-  std::vector<Authored> authored_before_;       ///< of the previous round
-  LiveCurves curves_;                           ///< over the timeline's frames
-  std::int64_t changed_from_ = std::numeric_limits<std::int64_t>::max();
+  Round round_;                                 ///< of this utterance, or of this round of a loop
+  Round last_round_;                            ///< the previous one of a loop
+
+  LiveCurves curves_;  ///< over the timeline's frames
   Timeline timeline_;
   std::deque<PlayerEvent> events_;  ///< `frame` counts the timeline's frames
 };

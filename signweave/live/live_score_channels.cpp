@@ -7,7 +7,7 @@
 // Places in which single channels show something else than the body. They are placed together (LaneStep).
 namespace signweave {
 bool LiveScore::tail_is_last_sign() const noexcept {
-  return state_ == State::at_core && !chain_.empty() && chain_.back() == last_sign_.clip && !entries_.empty();
+  return state_ == State::at_core && !chain_.empty() && chain_.back() == last_sign_.clip && !round_.entries.empty();
 }
 
 /// Makes frames of the tail's recording available up to `end`, so that the recorded transition can follow.
@@ -131,29 +131,29 @@ void LiveScore::sign_in_channels(std::size_t first) {
   Candidate signs;  // of the last clip
   std::vector<Entry> placed = clips_of_places(first, last, clips, signs);
   leave_idle();
-  const bool joined = tail_is_last_sign() && chain_.back() == entries_.back().clip;
+  const bool joined = tail_is_last_sign() && chain_.back() == round_.entries.back().clip;
   add_parts(first, last, placed, clips);
   add_holds(first, last, placed, clips);
   const StepPtr step = take_step(clips);
-  step_ = step;
 
   // The utterance's time goes on from its last sign, or begins with the first preparation.
   const PlacedClip& front = placed.front().clip->placed;
   std::int64_t begin = 0;
-  if (!entries_.empty()) begin = entries_.back().core + entries_.back().clip->placed.core_frames;
-  const std::int64_t shift =
-      joined ? entries_.back().core - entries_.back().clip->placed.core : begin + front.preparation - front.core;
+  if (!round_.entries.empty()) begin = round_.entries.back().core + round_.entries.back().clip->placed.core_frames;
+  const std::int64_t shift = joined ? round_.entries.back().core - round_.entries.back().clip->placed.core
+                                    : begin + front.preparation - front.core;
   for (Entry& entry : placed) {
     entry.step = step;
     entry.joined = joined;
     entry.begin = std::max(begin, step->begin + shift);
     entry.core = entry.clip->placed.core + shift;
-    entries_.push_back(entry);
+    round_.entries.push_back(entry);
   }
-  last_sign_ = {.clip = entries_.back().clip, .signs = std::move(signs)};
+  last_sign_ = {.clip = round_.entries.back().clip, .signs = std::move(signs), .step = step};
   state_ = State::at_core;
-  report_setup(entries_[entries_.size() - placed.size()]);
-  for (std::size_t i = entries_.size() - placed.size(); i < entries_.size(); ++i) report_places(entries_[i], 0);
+  report_setup(round_.entries[round_.entries.size() - placed.size()]);
+  for (std::size_t i = round_.entries.size() - placed.size(); i < round_.entries.size(); ++i)
+    report_places(round_.entries[i], 0);
 }
 
 /// Places new clips after the chain and shows what is decided.
@@ -174,7 +174,6 @@ LiveScore::StepPtr LiveScore::take_step(const StepClips& clips) {
 
 void LiveScore::go_to_rest_in_channels() {
   const ClipPtr rest = place_rest(*setup_);
-  rest->key = "rest";
   const std::int64_t core_end = tail().placed.core_end();
   take_step({.body = {rest}, .rests = true});
   state_ = State::resting;
@@ -186,10 +185,10 @@ void LiveScore::go_to_rest_in_channels() {
 
 /// As finish_sign, among signs that were placed together: ends the timeline with the one that is shown if it ends soon.
 bool LiveScore::finish_in_channels(std::int64_t next, const FrameRing& shown) {
-  const auto entry = std::ranges::find_if(entries_, [&](const Entry& one) {
+  const auto entry = std::ranges::find_if(round_.entries, [&](const Entry& one) {
     return one.step && one.clip->placed.core <= next && next < one.clip->placed.core_end();
   });
-  if (entry == entries_.end()) return false;
+  if (entry == round_.entries.end()) return false;
   const std::int64_t core_end = entry->clip->placed.core_end();
   const auto soon = static_cast<std::int64_t>(kFinished.count() * setup_->header.rate.hertz());
   if (core_end - next > soon || core_end > end()) return false;
@@ -231,7 +230,7 @@ bool LiveScore::finish_in_channels(std::int64_t next, const FrameRing& shown) {
 /// As seek, to a frame of signs that were placed together, of which entry `index` is the last one.
 void LiveScore::seek_in_step(std::size_t index, std::int64_t at, std::int64_t next) {
   const auto first_of_step = [&](std::size_t entry) {
-    while (entry > 0 && entries_[entry - 1].step == entries_[entry].step) --entry;
+    while (entry > 0 && round_.entries[entry - 1].step == round_.entries[entry].step) --entry;
     return entry;
   };
   // What was shown before the utterance is not shown again: then the signs are made without it.
@@ -241,18 +240,18 @@ void LiveScore::seek_in_step(std::size_t index, std::int64_t at, std::int64_t ne
     });
   };
   std::size_t first = first_of_step(index);
-  while (entries_[first].joined && !is_shown_again(*entries_[first].step)) {
+  while (round_.entries[first].joined && !is_shown_again(*round_.entries[first].step)) {
     index = first - 1;
-    at = entries_[index].core;
-    if (!entries_[index].step) break;
+    at = round_.entries[index].core;
+    if (!round_.entries[index].step) break;
     first = first_of_step(index);
   }
-  if (!entries_[index].step) {
-    entries_.resize(index + 1);
+  if (!round_.entries[index].step) {
+    round_.entries.resize(index + 1);
     seek(at, next);
     return;
   }
-  const Entry& entry = entries_[first];
+  const Entry& entry = round_.entries[first];
   auto step = std::make_shared<LaneStep>(*entry.step);
   cut(next);
   timeline_.restart(next);
@@ -269,7 +268,7 @@ void LiveScore::seek_in_step(std::size_t index, std::int64_t at, std::int64_t ne
     *step = make_step(chain_, next - (at - begin), without_tail(step->clips, step->had_tail), *setup_,
                       options_.synthesis.tempo, cache_.steps());
     chain_.add(step->links);
-    for (std::size_t i = first; i <= index; ++i) entries_[i].core = begin + step->to_core(entries_[i].clip);
+    for (std::size_t i = first; i <= index; ++i) round_.entries[i].core = begin + step->to_core(round_.entries[i].clip);
   }
   if (const std::int64_t late = next + 1 - chain_.core_end(); late > 0) {  // back to the last decided frame
     at -= late;
@@ -279,14 +278,13 @@ void LiveScore::seek_in_step(std::size_t index, std::int64_t at, std::int64_t ne
   // The last clip may have been continued as captured since.
   timeline_.append({std::max(next, step->end()), chain_.core_end()}, chain_.back());
   events_.push_back({.kind = PlayerEvent::Kind::seek, .frame = static_cast<std::uint64_t>(next), .at = time_of(at)});
-  entries_.resize(index + 1);
-  for (std::size_t i = first; i <= index; ++i) entries_[i].step = step;
-  step_ = step;
-  queue_.continue_at(entries_.back().last + 1);
-  last_sign_ = {.clip = entries_.back().clip, .signs = {}};
+  round_.entries.resize(index + 1);
+  for (std::size_t i = first; i <= index; ++i) round_.entries[i].step = step;
+  queue_.continue_at(round_.entries.back().last + 1);
+  last_sign_ = {.clip = round_.entries.back().clip, .signs = {}, .step = step};
   state_ = State::at_core;
   show_authored(next);
-  for (std::size_t i = first; i < entries_.size(); ++i) report_places(entries_[i], next);
+  for (std::size_t i = first; i < round_.entries.size(); ++i) report_places(round_.entries[i], next);
 }
 
 }  // namespace signweave

@@ -20,16 +20,17 @@ constexpr Seconds kAfterLast{60.0};
 
 /// Adds the non-manuals whose places are all signed. Frames before `from` are decided.
 void LiveScore::author(std::int64_t from) {
-  if (entries_.empty() || queue_.non_manuals().empty()) return;
+  if (round_.entries.empty() || queue_.non_manuals().empty()) return;
   const std::size_t forgotten = queue_.forgotten_non_manuals();
   NonManualOptions options = options_.synthesis.non_manuals;
   options.gaze = options.blinks = false;  // what is planned needs the whole utterance; the living rest blinks
   Score times;                            // in the utterance's time
   for (std::size_t i = 0; i < queue_.non_manuals().size(); ++i) {
     NonManual one = queue_.non_manuals()[i];
-    const auto known = std::ranges::find(authored_, forgotten + i, &Authored::number);
-    const bool goes_on = known != authored_.end() && known->goes_on;
-    if ((known != authored_.end() && !goes_on) || one.last >= queue_.next() || one.last < entries_.front().first) {
+    const auto known = std::ranges::find(round_.authored, forgotten + i, &Authored::number);
+    const bool goes_on = known != round_.authored.end() && known->goes_on;
+    if ((known != round_.authored.end() && !goes_on) || one.last >= queue_.next() ||
+        one.last < round_.entries.front().first) {
       continue;
     }
     if (times.clips.empty()) times = times_of_entries();
@@ -38,7 +39,7 @@ void LiveScore::author(std::int64_t from) {
     std::vector<Notice> notices;
     for (AuthoredCurve& curve :
          author_non_manuals({.places = {}, .holds = {}, .non_manuals = {one}}, times, options, notices)) {
-      const std::int64_t shift = entries_.back().clip->placed.core - entries_.back().core;
+      const std::int64_t shift = round_.entries.back().clip->placed.core - round_.entries.back().core;
       if (goes_on) {  // what was shown of it stays
         known->curve.at.end = std::max(curve.at.end, from - shift + 1);
         known->curve.last = curve.last;
@@ -58,7 +59,7 @@ void LiveScore::author(std::int64_t from) {
       }
       curve.at.begin = std::max(curve.at.begin, from - shift);
       curve.at.end = std::max(curve.at.end, curve.at.begin + 1);
-      authored_.push_back({.number = forgotten + i, .curve = curve});
+      round_.authored.push_back({.number = forgotten + i, .curve = curve});
       curve.at = {curve.at.begin + shift, curve.at.end + shift};
       curves_.add(std::move(curve));
     }
@@ -76,17 +77,17 @@ void LiveScore::author(std::int64_t from) {
 bool LiveScore::let_go_on(const Utterance& utterance, std::int64_t next) {
   const std::optional<std::size_t> number = queue_.continued(utterance);
   if (!number) return true;
-  const auto known = std::ranges::find(authored_, *number, &Authored::number);
-  if (known == authored_.end()) return true;  // its places are not all signed yet
+  const auto known = std::ranges::find(round_.authored, *number, &Authored::number);
+  if (known == round_.authored.end()) return true;  // its places are not all signed yet
   const FrameRate rate = setup_->header.rate;
-  const std::int64_t shift = entries_.back().clip->placed.core - entries_.back().core;
+  const std::int64_t shift = round_.entries.back().clip->placed.core - round_.entries.back().core;
   const Milliseconds falls = std::max(known->curve.curve.offset, known->curve.curve.head.offset);
   const std::int64_t end = known->curve.at.end + shift - frames_of(falls, rate);
   if (end <= next) return false;
   known->goes_on = true;
   known->curve.at.end += std::llround(kAfterLast.count() * rate.hertz());
   show_authored(next);
-  changed_from_ = end;
+  curves_.change_from(end);
   return true;
 }
 
@@ -94,7 +95,7 @@ bool LiveScore::let_go_on(const Utterance& utterance, std::int64_t next) {
 Score LiveScore::times_of_entries() const {
   Score times{.skeleton = {}, .rate = setup_->header.rate, .clips = {}, .junctions = {}, .lanes = {}};
   Lane& body = times.lanes.emplace_back();
-  for (const Entry& entry : entries_) {
+  for (const Entry& entry : round_.entries) {
     PlacedClip placed = entry.clip->placed;
     placed.core = entry.core;
     const auto id = static_cast<ClipId>(times.clips.size());
@@ -107,11 +108,11 @@ Score LiveScore::times_of_entries() const {
 
 /// Shows the movements of the utterance again after a jump to another of its times.
 void LiveScore::show_authored(std::int64_t next) {
-  const std::int64_t shift = entries_.back().clip->placed.core - entries_.back().core;
-  std::erase_if(authored_,
-                [&](const Authored& one) { return one.curve.first > entries_.back().last + queue_.forgotten(); });
+  const std::int64_t shift = round_.entries.back().clip->placed.core - round_.entries.back().core;
+  std::erase_if(round_.authored,
+                [&](const Authored& one) { return one.curve.first > round_.entries.back().last + queue_.forgotten(); });
   std::vector<AuthoredCurve> shown;
-  for (const Authored& one : authored_) {
+  for (const Authored& one : round_.authored) {
     AuthoredCurve& curve = shown.emplace_back(one.curve);
     curve.at = {curve.at.begin + shift, curve.at.end + shift};
     if (curve.at.end <= next) shown.pop_back();

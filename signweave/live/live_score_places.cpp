@@ -92,8 +92,7 @@ void LiveScore::rest_in(const std::string& recording) {
 /// Joins the next place to the tail, with the following places that stay together with it.
 void LiveScore::sign_next() {
   if (queue_.restarts()) {
-    last_round_ = std::exchange(entries_, {});
-    authored_before_ = std::exchange(authored_, {});
+    last_round_ = std::exchange(round_, {});
     last_sign_.signs.reset();
   }
   const std::size_t first = queue_.take_next();  // not retried, even after an error
@@ -102,7 +101,7 @@ void LiveScore::sign_next() {
     return;
   }
   const PlaceQueue::Decision& decision = queue_.decide(first);
-  if (state_ == State::at_core && last_sign_.signs && chain_.back() == last_sign_.clip && !entries_.empty() &&
+  if (state_ == State::at_core && last_sign_.signs && chain_.back() == last_sign_.clip && !round_.entries.empty() &&
       queue_.follows(*last_sign_.signs, first)) {
     continue_as_captured(first);
     return;
@@ -136,19 +135,20 @@ void LiveScore::sign_next() {
     chain_.begin(clip);
   } else {
     std::shared_ptr<const Motion> made = join(tail(), *clip);
-    entry.joined = !entries_.empty() && chain_.back() == entries_.back().clip;
-    if (!entries_.empty()) entry.begin = entries_.back().core + entries_.back().clip->placed.core_frames;
+    entry.joined = !round_.entries.empty() && chain_.back() == round_.entries.back().clip;
+    if (!round_.entries.empty())
+      entry.begin = round_.entries.back().core + round_.entries.back().clip->placed.core_frames;
     entry.core = entry.begin + (entry.joined ? made->frame_count() : clip->placed.preparation);
     timeline_.append({end(), clip->placed.core}, std::move(made));
     chain_.add(clip);
   }
   timeline_.append({end(), clip->placed.core_end()}, clip);
   queue_.continue_at(last + 1);
-  entries_.push_back(std::move(entry));
+  round_.entries.push_back(std::move(entry));
   last_sign_ = {.clip = std::move(clip), .signs = std::move(signs)};
   state_ = State::at_core;
-  report_setup(entries_.back());
-  report_places(entries_.back(), 0);
+  report_setup(round_.entries.back());
+  report_places(round_.entries.back(), 0);
 }
 
 void LiveScore::set_up_for(const MotionClip& first, const std::shared_ptr<const Contents>& contents) {
@@ -185,8 +185,8 @@ void LiveScore::continue_as_captured(std::size_t place) {
   clip.placed.standing = before.standing;
   clip.key.clear();  // its standing was measured from its beginning only
   timeline_.append({end(), clip.placed.core_end()}, chain_.back());
-  entries_.back().last = place;
-  Entry now = entries_.back();
+  round_.entries.back().last = place;
+  Entry now = round_.entries.back();
   now.first = place;
   report_places(now, 0);
 }

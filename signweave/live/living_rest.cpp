@@ -185,7 +185,7 @@ void LivingRest::add_moved(const RigMap& rig, const ModelPose& pose) {
 LivingRest::Life LivingRest::life_at(std::int64_t frame) const noexcept {
   const double seconds =
       static_cast<double>(frame) * static_cast<double>(rate_.denominator) / static_cast<double>(rate_.numerator);
-  const double ease = smoother_step(std::max(0.0, seconds - kRestStill.count()) / kRestEase.count());
+  const double ease = smoother_step(seconds / kRestEase.count());
   const auto size = static_cast<float>(ease) * options_.amount;
   // The first breath begins at 0.
   const double breaths =

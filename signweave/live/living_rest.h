@@ -25,7 +25,7 @@ struct LivingRestOptions {
 };
 
 /// A signer at rest who breathes, sways slightly and blinks, indefinitely. Each frame is a function of its number
-/// alone, bit for bit. It begins with the rest pose for kRestStill; then movement fades in over kRestEase. Trunk,
+/// alone, bit for bit. Frame 0 is the rest pose; movement fades in over kRestEase. Trunk,
 /// shoulders and head rotate about the signer's axes, derived from the rig and the rest pose. Legs stand still, arms
 /// keep hanging as they are, and the head keeps its gaze except for a drift of about a degree. Joints missing from the
 /// rig map do not move; if the map does not distinguish left and right, nothing moves. Reading does not allocate or
@@ -46,8 +46,6 @@ class LivingRest final : public MotionSource {
 
   static constexpr std::int64_t kFrames = std::int64_t{1} << 40;  ///< 580 years at 60 frames a second
   static constexpr Seconds kRestEase{2.0};
-  /// Longer than the context of a transition, so that transitions to rest do not depend on the seed and can be shared.
-  static constexpr Seconds kRestStill{0.4};
 
  private:
   /// How a joint rotates relative to its rest rotation, in the signer's axes.

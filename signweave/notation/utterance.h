@@ -220,8 +220,8 @@ UtteranceText read_utterance(std::string_view text, const UtteranceWords& words 
 Utterance parse_utterance(std::string_view text, const UtteranceWords& words = {});
 
 /// Returns text that parses to the same utterance, whatever glosses are known: names with brackets are quoted. Requires
-/// names that are not blank, and places, parts and times as this file describes them. Leaves out what is held from before
-/// the utterance.
+/// names that are not blank, and places, parts and times as this file describes them. Leaves out what is held from
+/// before the utterance.
 std::string to_string(const Utterance& utterance);
 std::string to_string(const GlossRef& gloss);
 

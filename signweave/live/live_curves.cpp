@@ -35,7 +35,8 @@ void LiveCurves::cut(std::int64_t frame) {
 
 void LiveCurves::end_after(std::size_t place, std::int64_t frame, FrameRate rate) {
   for (AuthoredCurve& one : curves_) {
-    if (one.last > place) one.at.end = std::min(one.at.end, frame + frames_of(one.curve.offset, rate));
+    const Milliseconds falls = std::max(one.curve.offset, one.curve.head.offset);
+    if (one.last > place) one.at.end = std::min(one.at.end, frame + frames_of(falls, rate));
   }
   renderer_.reset();
 }

@@ -270,7 +270,8 @@ void LiveScore::seek_in_step(std::size_t index, std::int64_t at, std::int64_t ne
     chain_.add(step->links);
     for (std::size_t i = first; i <= index; ++i) round_.entries[i].core = begin + step->to_core(round_.entries[i].clip);
   }
-  if (const std::int64_t late = next + 1 - chain_.core_end(); late > 0) {  // back to the last decided frame
+  // Back to the last decided frame, as far as the step has frames.
+  if (const std::int64_t late = std::min(next + 1 - chain_.core_end(), next - step->begin); late > 0) {
     at -= late;
     step->move_to(step->begin + late);
   }

@@ -1,6 +1,7 @@
 #include "signweave/live/timeline.h"
 
 #include <algorithm>
+#include <cassert>
 
 namespace signweave {
 
@@ -22,6 +23,7 @@ void Timeline::append(FrameRange frames, std::shared_ptr<const Motion> made) {
 
 void Timeline::append(FrameRange frames, std::shared_ptr<const Motion> made, std::int64_t begin) {
   if (frames.empty()) return;
+  assert(begin <= frames.begin && frames.end <= begin + made->frame_count());
   runs_.push_back({.frames = frames, .clip = {}, .made = std::move(made), .made_begin = begin});
   end_ = frames.end;
 }

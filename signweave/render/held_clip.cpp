@@ -95,8 +95,9 @@ HeldClip hold(const PlacedClip& placed, const HeldFrames& held) {
   const MotionClip& clip = *placed.captured;
   PlacedClip alone = placed;
   alone.core = 0;
-  std::int64_t end = clip.whole.end;
-  if (held.after_core > 0 || held.at_end > 0) {
+  const bool holds_last = held.after_core > 0 || held.at_end > 0;
+  std::int64_t end = std::min(clip.whole.end + 1, clip.source->frame_count());  // as PlacedClip::last
+  if (holds_last) {
     const std::int64_t shown_after = held.after_core > 0 ? 0 : placed.after;
     const double last = alone.frame_at(placed.core_frames + shown_after - 1);
     end = std::min(clip.source->frame_count(), static_cast<std::int64_t>(std::ceil(last)) + 1);
@@ -107,7 +108,7 @@ HeldClip hold(const PlacedClip& placed, const HeldFrames& held) {
 
   auto made = std::make_shared<MotionClip>(clip);
   made->source = std::make_shared<HeldSource>(clip.source, shown, after);
-  made->whole = {shown.begin - before, made->source->frame_count()};
+  made->whole = {shown.begin - before, holds_last ? made->source->frame_count() : clip.whole.end};
   made->core = {clip.core.begin, held.after_core > 0 ? made->whole.end : std::min(made->whole.end, clip.core.end)};
 
   HeldClip result{.clip = made, .placed = placed_by_step(*made, placed.step)};

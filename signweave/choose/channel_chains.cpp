@@ -68,9 +68,13 @@ std::vector<ChannelChain> channel_chains(const ChannelParts& parts, const std::v
   const auto add = [&](Channel channel, std::vector<ChannelLink> links) {
     ChannelChain& chain = chains.emplace_back(ChannelChain{channel, std::move(links)});
     if (const auto start = start_of(channel); start != starts.end() && !start->links.empty()) {
-      const std::size_t last = start->links.back().last;
-      std::erase_if(chain.links, [&](const ChannelLink& link) { return link.first <= last; });
-      chain.links.insert(chain.links.begin(), start->links.begin(), start->links.end());
+      std::vector<ChannelLink> first = start->links;
+      for (ChannelLink& link : first) {  // what a part shows with its parent is held with it
+        const auto theirs = std::ranges::find(chain.links, link.clip, &ChannelLink::clip);
+        if (theirs != chain.links.end() && theirs->held_until) link.held_until = theirs->held_until;
+      }
+      std::erase_if(chain.links, [&](const ChannelLink& link) { return link.first <= first.back().last; });
+      chain.links.insert(chain.links.begin(), first.begin(), first.end());
     }
     ChainEditor editor(chain, clips);
     for (std::size_t i = known; i < parts.clips.size(); ++i) {

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <span>
 #include <vector>
@@ -58,9 +59,10 @@ class MovementCheck {
     set,      ///< it has a bit of the mask
     state,    ///< its state number is decoded
   };
+  static constexpr float kUnbounded = std::numeric_limits<float>::infinity();
   /// Both included. No value lies within if low is above high; NaN never does.
   struct Bounds {
-    float low, high;
+    float low, high;  ///< kUnbounded: none
     bool hold(float value) const noexcept { return low <= value && value <= high; }
   };
 

@@ -11,7 +11,7 @@
 
 namespace signweave {
 
-void mark_mirrored(std::vector<MotionClip>& clips, std::span<const std::optional<Side>> hands, const Snapshot& snapshot,
+void mark_mirrored(std::span<MotionClip> clips, std::span<const std::optional<Side>> hands, const Snapshot& snapshot,
                    std::vector<Notice>& notices) {
   const Contents& contents = snapshot.contents();
   std::map<std::string, Side> dominant;  // by recording
@@ -29,7 +29,7 @@ void mark_mirrored(std::vector<MotionClip>& clips, std::span<const std::optional
   }
 }
 
-void mirror_marked(std::vector<MotionClip>& clips, const Snapshot& snapshot, std::vector<Notice>& notices) {
+void mirror_marked(std::span<MotionClip> clips, const Snapshot& snapshot, std::vector<Notice>& notices) {
   std::map<std::string, std::shared_ptr<const MotionSource>> sources;  // by recording
   for (MotionClip& clip : clips) {
     if (!clip.mirrored) continue;

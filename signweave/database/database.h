@@ -99,6 +99,9 @@ class Snapshot {
   std::shared_ptr<const semantic_db::Learned> learned() const;
 
  private:
+  template <typename Measured, typename KeptIn, typename Make>
+  std::shared_ptr<const Measured> measured_once(const RecordingInfo& recording, KeptIn kept_in, Make make) const;
+
   friend class Database;
   const Database* database_ = nullptr;
   std::shared_ptr<const kv::ReadTransaction> transaction_;

@@ -6,31 +6,34 @@
 
 namespace signweave {
 
-std::shared_ptr<const SignerModel> Snapshot::signer(const RecordingInfo& recording) const {
+/// What was measured of a recording, kept until the database changes. `kept_in` returns the measures of a database by
+/// generation; `make` measures a motion.
+template <typename Measured, typename KeptIn, typename Make>
+std::shared_ptr<const Measured> Snapshot::measured_once(const RecordingInfo& recording, KeptIn kept_in,
+                                                        Make make) const {
   const Database& database = *database_;
+  auto& kept = kept_in(database);
   if (recording.motion) {
     const std::lock_guard guard(database.mutex_);
-    const auto at = database.signers_.find(recording.motion->generation);
-    if (database.contents_ == contents_ && at != database.signers_.end()) return at->second;
+    const auto at = kept.find(recording.motion->generation);
+    if (database.contents_ == contents_ && at != kept.end()) return at->second;
   }
-  auto made = std::make_shared<const SignerModel>(model_of(*motion(recording), recording.rig));
+  auto made = std::make_shared<const Measured>(make(*motion(recording)));
   const std::lock_guard guard(database.mutex_);
-  if (database.contents_ == contents_) database.signers_[recording.motion->generation] = made;
+  if (database.contents_ == contents_) kept[recording.motion->generation] = made;
   return made;
 }
 
+std::shared_ptr<const SignerModel> Snapshot::signer(const RecordingInfo& recording) const {
+  return measured_once<SignerModel>(
+      recording, [](const Database& database) -> auto& { return database.signers_; },
+      [&](const MotionSource& motion) { return model_of(motion, recording.rig); });
+}
+
 std::shared_ptr<const Mirroring> Snapshot::mirroring(const RecordingInfo& recording) const {
-  const Database& database = *database_;
-  if (recording.motion) {
-    const std::lock_guard guard(database.mutex_);
-    const auto at = database.mirrorings_.find(recording.motion->generation);
-    if (database.contents_ == contents_ && at != database.mirrorings_.end()) return at->second;
-  }
-  auto made =
-      std::make_shared<const Mirroring>(mirroring_of(recorded_body(recording.name, *motion(recording), recording.rig)));
-  const std::lock_guard guard(database.mutex_);
-  if (database.contents_ == contents_) database.mirrorings_[recording.motion->generation] = made;
-  return made;
+  return measured_once<Mirroring>(
+      recording, [](const Database& database) -> auto& { return database.mirrorings_; },
+      [&](const MotionSource& motion) { return mirroring_of(recorded_body(recording.name, motion, recording.rig)); });
 }
 
 }  // namespace signweave

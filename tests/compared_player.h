@@ -23,6 +23,7 @@ class ComparedPlayer {
 
   Player& player() noexcept { return player_; }
   std::size_t compared() const noexcept { return compared_; }
+  const std::vector<std::string>& notices() const noexcept { return notices_; }
   /// How many compared frames were of a score in which lanes differ.
   std::size_t lanes_seen() const noexcept { return lanes_seen_; }
   std::size_t kinds_seen(SourceRef::Kind kind) const noexcept { return seen_[static_cast<std::size_t>(kind)]; }
@@ -49,6 +50,7 @@ class ComparedPlayer {
       for (std::size_t i = 0; i < tracks.size(); ++i) tracks_[i].push_back(tracks[i]);
     }
     while (const std::optional<PlayerEvent> event = player_.take_event()) {
+      if (event->kind == PlayerEvent::Kind::notice) notices_.push_back(event->text);
       if (event->kind != PlayerEvent::Kind::place) continue;
       ASSERT_GE(event->clip, live->first_clip);
       const Clip& clip = live->score.clips.at(event->clip - live->first_clip);
@@ -122,7 +124,37 @@ class ComparedPlayer {
   std::vector<std::vector<float>> tracks_;
   std::size_t compared_ = 0;
   std::size_t lanes_seen_ = 0;
+  std::vector<std::string> notices_;
   std::array<std::size_t, 3> seen_{};
 };
+
+/// Shows some frames and then requests something, so often. `below` returns a random number below another, `utterance`
+/// a random utterance.
+template <typename Below, typename MakeUtterance>
+void request_at_random(ComparedPlayer& stream, Below below, MakeUtterance utterance,
+                       std::vector<std::string>* refused = nullptr) {
+  Player& player = stream.player();
+  player.sign(utterance());
+  for (int step = 0; step < 16 && !testing::Test::HasFatalFailure(); ++step) {
+    for (std::size_t i = below(5); i > 0; --i) stream.take(10 + below(54), refused);
+    switch (below(6)) {
+      case 0:
+        player.sign(utterance());
+        break;
+      case 1:
+      case 2:
+        player.append(utterance());
+        break;
+      case 3:
+        player.seek(Milliseconds(below(6000)));
+        break;
+      case 4:
+        player.set_loop(below(2) == 0);
+        break;
+      default:
+        if (below(3) == 0) player.stop();
+    }
+  }
+}
 
 }  // namespace signweave

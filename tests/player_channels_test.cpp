@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cstdlib>
+#include <initializer_list>
 #include <random>
 
 #include "signweave/choose/synthesizer.h"
@@ -14,11 +15,21 @@ namespace {
 using testing::HasSubstr;
 
 /// Shows a stream to its end.
-void show_all(ComparedPlayer& stream, std::vector<std::string>* refused = nullptr) {
-  for (int i = 0; i < 400 && !stream.player().idle() && !testing::Test::HasFatalFailure(); ++i) {
-    stream.take(32, refused);
-  }
+void show_all(ComparedPlayer& stream) {
+  for (int i = 0; i < 400 && !stream.player().idle() && !testing::Test::HasFatalFailure(); ++i) stream.take(32);
   EXPECT_TRUE(stream.player().idle());
+}
+
+/// Shows utterances to their ends.
+void show_each(std::initializer_list<const char*> texts, Idle idle) {
+  for (const char* const text : texts) {
+    SCOPED_TRACE(text);
+    ComparedPlayer stream({.idle = idle});
+    stream.player().sign(parse_utterance(text));
+    show_all(stream);
+    EXPECT_GT(stream.compared(), 60u);
+    if (testing::Test::HasFatalFailure()) return;
+  }
 }
 
 class PlayerChannels : public testing::TestWithParam<Idle> {};
@@ -26,20 +37,13 @@ INSTANTIATE_TEST_SUITE_P(, PlayerChannels, testing::Values(Idle::end, Idle::livi
                          [](const auto& idle) { return idle.param == Idle::end ? "ToTheEnd" : "ToRest"; });
 
 TEST_P(PlayerChannels, ShowWhatTheirScoreRenders) {
-  for (const char* const text :
-       {"[MATIN | weak: PLUIE]", "VANNES [MATIN | weak: PLUIE]", "[MATIN | weak: PLUIE] VANNES",
-        "VANNES MATIN{weak hold ..+2} PLUIE NANTES RENNES", "VANNES{weak hold ..} MATIN",
-        "VANNES MATIN{fingers: PLUIE} RENNES", "VANNES [MATIN PLUIE | left: NANTES RENNES] VENT",
-        "VANNES [MATIN | weak: PLUIE @begin+200] [PLUIE | weak: VENT @end] RENNES",
-        "MATIN{weak ..+1: PLUIE} VANNES{head: RENNES}", "VANNES [MATIN PLUIE | weak: VENT rest] RENNES",
-        "VANNES{dominant left} MATIN"}) {
-    SCOPED_TRACE(text);
-    ComparedPlayer stream({.idle = GetParam()});
-    stream.player().sign(parse_utterance(text));
-    show_all(stream);
-    EXPECT_GT(stream.compared(), 60u);
-    if (testing::Test::HasFatalFailure()) return;
-  }
+  show_each({"[MATIN | weak: PLUIE]", "VANNES [MATIN | weak: PLUIE]", "[MATIN | weak: PLUIE] VANNES",
+             "VANNES MATIN{weak hold ..+2} PLUIE NANTES RENNES", "VANNES{weak hold ..} MATIN",
+             "VANNES MATIN{fingers: PLUIE} RENNES", "VANNES [MATIN PLUIE | left: NANTES RENNES] VENT",
+             "VANNES [MATIN | weak: PLUIE @begin+200] [PLUIE | weak: VENT @end] RENNES",
+             "MATIN{weak ..+1: PLUIE} VANNES{head: RENNES}", "VANNES [MATIN PLUIE | weak: VENT rest] RENNES",
+             "VANNES{dominant left} MATIN"},
+            GetParam());
 }
 
 TEST(PlayerChannelsToTheEnd, ShowWhatAFileShows) {
@@ -79,14 +83,9 @@ TEST(PlayerChannelsToTheEnd, ShowWhatAFileShows) {
 }
 
 TEST_P(PlayerChannels, ShowFaceGazeAndHead) {
-  for (const char* const text : {"MATIN{brows up} VANNES", "{neg: VANNES MATIN} RENNES", "MATIN{mouth \"pluie\"}",
-                                 "VANNES {gaze @left: MATIN [PLUIE | weak: VENT]} RENNES"}) {
-    SCOPED_TRACE(text);
-    ComparedPlayer stream({.idle = GetParam()});
-    stream.player().sign(parse_utterance(text));
-    show_all(stream);
-    EXPECT_GT(stream.compared(), 60u);
-  }
+  show_each({"MATIN{brows up} VANNES", "{neg: VANNES MATIN} RENNES", "MATIN{mouth \"pluie\"}",
+             "VANNES {gaze @left: MATIN [PLUIE | weak: VENT]} RENNES"},
+            GetParam());
 }
 
 /// The weight of a track in each frame that a stream shows.
@@ -134,6 +133,17 @@ TEST(PlayerChannelsAppended, HoldAHandOn) {
   std::vector<std::string> glosses;
   for (const LaneLink& link : chain_of(left)) glosses.push_back(live->score.clips[link.clip].signs.front().gloss);
   EXPECT_THAT(glosses, testing::ElementsAre("VANNES", "MATIN", "PLUIE"));
+}
+
+TEST(PlayerChannelsAppended, SayThatASignIsOver) {
+  ComparedPlayer stream({});
+  UtteranceWords words;
+  words.follows = true;
+  stream.player().sign(parse_utterance("VANNES#1"));
+  show_all(stream);
+  stream.player().append(parse_utterance("[RENNES#1 MATIN#1 | weak: hold]", words));
+  show_all(stream);
+  EXPECT_THAT(stream.notices(), testing::ElementsAre(HasSubstr("nothing to hold: the sign before is over")));
 }
 
 TEST(PlayerChannelsAppended, RefuseAHoldOfNothing) {
@@ -210,29 +220,7 @@ TEST(PlayerChannelsAtRandom, ShowWhatTheirScoreRendersWhateverIsRequested) {
     options.face = below(2) == 0;
     if (below(4) == 0) options.recording = "villes";
     ComparedPlayer stream(options);
-    Player& player = stream.player();
-    player.sign(utterance());
-    for (int step = 0; step < 16 && !testing::Test::HasFatalFailure(); ++step) {
-      for (std::size_t i = below(5); i > 0; --i) stream.take(10 + below(54), &refused);
-      const std::size_t what = below(6);
-      switch (what) {
-        case 0:
-          player.sign(utterance());
-          break;
-        case 1:
-        case 2:
-          player.append(utterance());
-          break;
-        case 3:
-          player.seek(Milliseconds(below(6000)));
-          break;
-        case 4:
-          player.set_loop(below(2) == 0);
-          break;
-        default:
-          if (below(3) == 0) player.stop();
-      }
-    }
+    request_at_random(stream, below, utterance, &refused);
     ASSERT_FALSE(testing::Test::HasFatalFailure()) << "seed " << seed;
     compared += stream.compared();
     lanes += stream.lanes_seen();

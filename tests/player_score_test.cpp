@@ -32,28 +32,7 @@ TEST(PlayerScore, RendersWhatIsShownWhateverIsRequested) {
     options.loop = below(6) == 0;
     if (below(4) == 0) options.recording = "villes";
     ComparedPlayer stream(options);
-    Player& player = stream.player();
-    player.sign(utterance());
-    for (int step = 0; step < 16 && !testing::Test::HasFatalFailure(); ++step) {
-      for (std::size_t i = below(5); i > 0; --i) stream.take(10 + below(54));
-      switch (below(6)) {
-        case 0:
-          player.sign(utterance());
-          break;
-        case 1:
-        case 2:
-          player.append(utterance());
-          break;
-        case 3:
-          player.seek(Milliseconds(below(6000)));
-          break;
-        case 4:
-          player.set_loop(below(2) == 0);
-          break;
-        default:
-          if (below(3) == 0) player.stop();
-      }
-    }
+    request_at_random(stream, below, utterance);
     ASSERT_FALSE(testing::Test::HasFatalFailure()) << "seed " << seed;
     compared += stream.compared();
     for (std::size_t kind = 0; kind < seen.size(); ++kind) {

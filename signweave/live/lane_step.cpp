@@ -1,10 +1,10 @@
 #include "signweave/live/lane_step.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <limits>
 #include <optional>
-
-#include <fmt/format.h>
 
 #include "signweave/choose/compose.h"
 #include "signweave/core/error.h"

@@ -60,14 +60,15 @@ void LiveScore::continue_from(const FrameRing& made) {
 bool LiveScore::grow() {
   if (queue_.has_next()) {
     const std::int64_t from = end();
+    const std::size_t first = queue_.restarts() ? 0 : queue_.next();
     try {
       sign_next();
       while (queue_.goes_on()) sign_next();  // where a non-manual ends must be known
     } catch (const Error&) {
-      author(from);
+      author(first, from);
       throw;
     }
-    author(from);
+    author(first, from);
     return true;
   }
   switch (state_) {
@@ -257,7 +258,7 @@ void LiveScore::forget_places() {
     if (!front.step) front.begin = front.core - front.clip->placed.preparation;
     front.joined = false;
   }
-  std::erase_if(round_.authored, [&](const Authored& one) { return one.number < queue_.forgotten_non_manuals(); });
+  round_.authored.erase(round_.authored.begin(), round_.authored.lower_bound(queue_.forgotten_non_manuals()));
 }
 
 void LiveScore::replace(const Utterance& utterance, std::int64_t next, const FrameRing& shown) {
@@ -343,9 +344,7 @@ bool LiveScore::seek(std::int64_t at, std::int64_t next) {
   while (index > 0 && entries[index].begin > at) --index;
   const Entry& entry = entries[index];
   if (entry.step) {
-    if (earlier) {
-      round_ = std::move(last_round_);
-    }
+    if (earlier) round_ = std::move(last_round_);
     seek_in_step(index, at, next);
     last_round_ = {};
     return true;
@@ -382,9 +381,7 @@ bool LiveScore::seek(std::int64_t at, std::int64_t next) {
     timeline_.append({next, clip->placed.core}, clip);
   }
   timeline_.append({std::max(next, clip->placed.core), clip->placed.core_end()}, clip);
-  if (earlier) {
-    round_ = std::move(last_round_);
-  }
+  if (earlier) round_ = std::move(last_round_);
   last_round_ = {};
   round_.entries.resize(index + 1);
   queue_.continue_at(round_.entries.back().last + 1);

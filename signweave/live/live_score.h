@@ -109,16 +109,15 @@ class LiveScore {
     std::int64_t core = 0;   ///< frame of the utterance at which its core begins
     StepPtr step = {};       ///< what it was signed with, if channels differ; null: by itself
   };
-  /// Authored movements of this utterance, over frames of the utterance.
+  /// An authored movement of this utterance, over frames of the utterance.
   struct Authored {
-    std::size_t number = 0;  ///< of the non-manual in the queue
     AuthoredCurve curve;
     bool goes_on = false;  ///< its end is not known yet
   };
   /// What was placed of an utterance.
   struct Round {
     std::vector<Entry> entries;
-    std::vector<Authored> authored;
+    std::map<std::size_t, Authored> authored;  ///< by the number of the non-manual in the queue
   };
   /// The tokens that parts of some places sign.
   struct PartsOfPlaces {
@@ -148,6 +147,8 @@ class LiveScore {
                                                   std::shared_ptr<const MotionSource> source);
   void set_up_for(const MotionClip& first, const std::shared_ptr<const Contents>& contents);
   void leave_idle();
+  void extended(LiveClip& clip) const;
+  void notify(std::int64_t frame, std::size_t place, std::string text);
   void report_setup(const Entry& entry);
   void sign_next();
   void go_to_rest();
@@ -159,7 +160,7 @@ class LiveScore {
   std::vector<Entry> clips_of_places(std::size_t first, std::size_t last, StepClips& clips, Candidate& signs);
   const std::vector<ChosenPart>& chosen_parts(std::size_t first, std::size_t last, bool after_sign);
   void add_parts(std::size_t first, std::size_t last, const std::vector<Entry>& placed, StepClips& clips);
-  void add_holds(std::size_t first, std::size_t last, const std::vector<Entry>& placed, StepClips& clips) const;
+  void add_holds(std::size_t first, std::size_t last, const std::vector<Entry>& placed, StepClips& clips);
   void extend_tail(std::int64_t end);
   bool tail_is_last_sign() const noexcept;
   StepPtr take_step(const StepClips& clips);
@@ -167,8 +168,8 @@ class LiveScore {
   void seek_in_step(std::size_t index, std::int64_t at, std::int64_t next);
 
   // live_score_face.cpp
-  void author(std::int64_t from);
-  Score times_of_entries() const;
+  void author(std::size_t first, std::int64_t from);
+  Score times_from(std::size_t place) const;
   bool let_go_on(const Utterance& utterance, std::int64_t next);
   void show_authored(std::int64_t next);
   std::shared_ptr<const Motion> join(LiveClip& a, LiveClip& b);

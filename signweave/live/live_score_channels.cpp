@@ -6,6 +6,7 @@
 
 // Places in which single channels show something else than the body. They are placed together (LaneStep).
 namespace signweave {
+
 bool LiveScore::tail_is_last_sign() const noexcept {
   return state_ == State::at_core && !chain_.empty() && chain_.back() == last_sign_.clip && !round_.entries.empty();
 }
@@ -14,14 +15,10 @@ bool LiveScore::tail_is_last_sign() const noexcept {
 void LiveScore::extend_tail(std::int64_t end) {
   LiveClip& clip = tail();
   if (clip.captured.whole.end >= end) return;
-  const PlacedClip before = clip.placed;
+  const std::int64_t core_frames = clip.placed.core_frames;
   clip.captured.whole.end = end;
-  setup_->builder->place_sign(clip);
-  clip.placed.core = before.core;
-  clip.placed.core_frames = before.core_frames;
-  clip.placed.before = before.before;
-  clip.placed.standing = before.standing;
-  clip.key.clear();
+  extended(clip);
+  clip.placed.core_frames = core_frames;
 }
 
 /// The clips of places; neighbours in a recording are one clip, except where a part or a hold begins or ends.
@@ -107,8 +104,7 @@ void LiveScore::add_parts(std::size_t first, std::size_t last, const std::vector
   }
 }
 
-void LiveScore::add_holds(std::size_t first, std::size_t last, const std::vector<Entry>& placed,
-                          StepClips& clips) const {
+void LiveScore::add_holds(std::size_t first, std::size_t last, const std::vector<Entry>& placed, StepClips& clips) {
   const std::size_t tails = chain_.empty() ? 0 : 1;
   const auto clip_of_place = [&](std::size_t place) {
     std::size_t i = 0;
@@ -117,7 +113,13 @@ void LiveScore::add_holds(std::size_t first, std::size_t last, const std::vector
   };
   for (const ChannelHold& held : queue_.holds()) {
     if (held.from >= last || held.until < first) continue;
-    if (held.from < first && !tail_is_last_sign()) continue;  // something else was shown since
+    if (held.from < first && !tail_is_last_sign()) {
+      if (held.from + 1 == first) {
+        notify(end(), first + queue_.forgotten(),
+               "nothing to hold: the sign before is over; append what holds its hand while it is shown");
+      }
+      continue;
+    }
     clips.parts.holds.push_back({.channel = held.channel,
                                  .from = held.from < first ? 0 : clip_of_place(held.from),
                                  .until = clip_of_place(std::min(held.until, last))});
@@ -158,13 +160,12 @@ void LiveScore::sign_in_channels(std::size_t first) {
 
 /// Places new clips after the chain and shows what is decided.
 LiveScore::StepPtr LiveScore::take_step(const StepClips& clips) {
-  for (const auto* const all : {&clips.body, &clips.of_parts}) {
-    for (const ClipPtr& clip : *all) {
-      if (clips.rests) continue;
-      clip->key = key_of(clip->captured);
-      setup_->builder->place_sign(*clip);
-    }
-  }
+  const auto place = [&](const ClipPtr& clip) {
+    clip->key = key_of(clip->captured);
+    setup_->builder->place_sign(*clip);
+  };
+  if (!clips.rests) std::ranges::for_each(clips.body, place);  // the rest is placed already
+  std::ranges::for_each(clips.of_parts, place);
   auto step = std::make_shared<const LaneStep>(
       make_step(chain_, end(), clips, *setup_, options_.synthesis.tempo, cache_.steps()));
   chain_.add(step->links);
@@ -270,8 +271,7 @@ void LiveScore::seek_in_step(std::size_t index, std::int64_t at, std::int64_t ne
     chain_.add(step->links);
     for (std::size_t i = first; i <= index; ++i) round_.entries[i].core = begin + step->to_core(round_.entries[i].clip);
   }
-  // Back to the last decided frame, as far as the step has frames.
-  if (const std::int64_t late = std::min(next + 1 - chain_.core_end(), next - step->begin); late > 0) {
+  if (const std::int64_t late = next + 1 - chain_.core_end(); late > 0) {  // back to the last decided frame
     at -= late;
     step->move_to(step->begin + late);
   }

@@ -19,24 +19,24 @@ MotionClip LiveScore::clip_of(const Contents& contents, const Candidate& candida
                               std::optional<bool> mirrored) {
   const RecordingInfo& info = contents.recordings[candidate.recording];
   const auto own = std::make_shared<RecordingSource>(open_, info);
-  std::vector<MotionClip> clip = {{.recording = info.name,
-                                   .source = own,
-                                   .whole = candidate.whole,
-                                   .core = candidate.core,
-                                   .clock = info.clock,
-                                   .signs = candidate.signs,
-                                   .pause_before = queue_.pause_before(place),
-                                   .fingerprint = info.motion_facts.fingerprint,
-                                   .place = place + queue_.forgotten()}};
+  MotionClip clip{.recording = info.name,
+                  .source = own,
+                  .whole = candidate.whole,
+                  .core = candidate.core,
+                  .clock = info.clock,
+                  .signs = candidate.signs,
+                  .pause_before = queue_.pause_before(place),
+                  .fingerprint = info.motion_facts.fingerprint,
+                  .place = place + queue_.forgotten()};
   std::vector<Notice> notices;
   if (const std::optional<Side> hand = queue_.wanted_hand(place); hand || mirrored) {
-    mark_mirrored(clip, {&hand, 1}, open_.snapshot(), notices);
-    clip.front().mirrored = mirrored.value_or(clip.front().mirrored);
-    mirror_marked(clip, open_.snapshot(), notices);
+    mark_mirrored({&clip, 1}, {&hand, 1}, open_.snapshot(), notices);
+    clip.mirrored = mirrored.value_or(clip.mirrored);
+    mirror_marked({&clip, 1}, open_.snapshot(), notices);
   }
-  clip.front().source = on_skeleton(info, clip.front().source);
-  if (clip.front().source == own) clip.front().noise = open_.snapshot().joins(candidate.recording)->noise;
-  return std::move(clip.front());
+  clip.source = on_skeleton(info, clip.source);
+  if (clip.source == own) clip.noise = open_.snapshot().joins(candidate.recording)->noise;
+  return clip;
 }
 
 /// A recording's motion on the stream's skeleton.
@@ -169,21 +169,33 @@ void LiveScore::leave_idle() {
   }
 }
 
-/// The place follows the tail in its recording, so the tail is extended.
-void LiveScore::continue_as_captured(std::size_t place) {
-  const Candidate& candidate = queue_.chosen(place);
-  extend_with(*last_sign_.signs, candidate);
-  LiveClip& clip = tail();
+/// Keeps a clip of which more is captured now where it is.
+void LiveScore::extended(LiveClip& clip) const {
   const PlacedClip before = clip.placed;
-  clip.captured.core.end = candidate.core.end;
-  clip.captured.whole.end = candidate.whole.end;
-  clip.captured.signs = last_sign_.signs->signs;
-  clip.captured.sign_places.resize(clip.captured.signs.size(), place + queue_.forgotten());
   setup_->builder->place_sign(clip);
   clip.placed.core = before.core;
   clip.placed.before = before.before;
   clip.placed.standing = before.standing;
   clip.key.clear();  // its standing was measured from its beginning only
+}
+
+/// Adds a notice among the events of its frame.
+void LiveScore::notify(std::int64_t frame, std::size_t place, std::string text) {
+  const auto at = static_cast<std::uint64_t>(frame);
+  const auto after = std::ranges::upper_bound(events_, at, {}, &PlayerEvent::frame);
+  events_.insert(after, {.kind = PlayerEvent::Kind::notice, .frame = at, .place = place, .text = std::move(text)});
+}
+
+/// The place follows the tail in its recording, so the tail is extended.
+void LiveScore::continue_as_captured(std::size_t place) {
+  const Candidate& candidate = queue_.chosen(place);
+  extend_with(*last_sign_.signs, candidate);
+  LiveClip& clip = tail();
+  clip.captured.core.end = candidate.core.end;
+  clip.captured.whole.end = candidate.whole.end;
+  clip.captured.signs = last_sign_.signs->signs;
+  clip.captured.sign_places.resize(clip.captured.signs.size(), place + queue_.forgotten());
+  extended(clip);
   timeline_.append({end(), clip.placed.core_end()}, chain_.back());
   round_.entries.back().last = place;
   Entry now = round_.entries.back();

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <span>
 
 #include "signweave/choose/non_manuals.h"
 #include "signweave/choose/part_choice.h"
@@ -15,6 +16,17 @@ namespace {
 
 bool has_parts(const Utterance& utterance) {
   return std::ranges::any_of(utterance.places, [](const Place& place) { return !place.parts.empty(); });
+}
+
+/// The last of the places that overlapping parts tie to one of them and those after it.
+std::size_t last_tied_to(std::span<const Place> places, std::size_t place) noexcept {
+  std::size_t last = place;
+  for (std::size_t i = place; i <= last; ++i) {
+    for (const PlacePart& part : places[i].parts) {
+      last = std::max(last, std::min(i + std::max<std::size_t>(part.places, 1), places.size()) - 1);
+    }
+  }
+  return last;
 }
 
 /// Parts, holds and non-manuals must accompany places of their utterance, and not too many.
@@ -30,15 +42,10 @@ void check_ranges(const Utterance& utterance, bool follows) {
                               PlaceQueue::kMostTied, last - first + 1));
     }
   };
-  std::size_t first = 0;  // of the places that overlapping parts tie to each other
-  std::size_t last = 0;
-  for (std::size_t i = 0; i < utterance.places.size(); ++i) {
-    if (i > last) first = i;
-    last = std::max(last, i);
-    for (const PlacePart& part : utterance.places[i].parts) {
-      last = std::max(last, std::min(i + std::max<std::size_t>(part.places, 1), utterance.places.size()) - 1);
-    }
+  for (std::size_t first = 0; first < utterance.places.size();) {
+    const std::size_t last = last_tied_to(utterance.places, first);
     require(first, last, true);
+    first = last + 1;
   }
   for (const HandHold& held : utterance.holds) {
     require(held.from == kPlaceBefore ? 0 : held.from + 1, held.until, false);
@@ -91,14 +98,15 @@ void PlaceQueue::replace(const Utterance& utterance) {
   add(utterance);
 }
 
-/// The same expression or gaze until the place before, or null.
+/// The same expression or gaze until the place before, or null. Together they are over at most kMostTied places.
 NonManual* PlaceQueue::continued_by(const NonManual& one) noexcept {
   if (one.kind == NonManual::Kind::mouthing || one.begin != Milliseconds(0)) return nullptr;
-  const auto at = std::ranges::find_if(non_manuals_, [&](const NonManual& before) {
-    return before.kind == one.kind && before.what == one.what && before.last + 1 == one.first &&
-           before.end == Milliseconds(0);
-  });
-  return at == non_manuals_.end() ? nullptr : &*at;
+  for (std::size_t i = first_over(one.last); i < non_manuals_.size(); ++i) {
+    NonManual& before = non_manuals_[i];
+    const bool is_same = before.kind == one.kind && before.what == one.what && before.end == Milliseconds(0);
+    if (is_same && before.last + 1 == one.first) return &before;
+  }
+  return nullptr;
 }
 
 std::optional<std::size_t> PlaceQueue::continued(const Utterance& utterance) {
@@ -106,6 +114,7 @@ std::optional<std::size_t> PlaceQueue::continued(const Utterance& utterance) {
   for (NonManual one : utterance.non_manuals) {
     if (one.first > 0) break;
     one.first += places_.size();
+    one.last += places_.size();
     if (const NonManual* const before = continued_by(one)) {
       return forgotten_non_manuals_ + static_cast<std::size_t>(before - non_manuals_.data());
     }
@@ -154,19 +163,21 @@ void PlaceQueue::add(const Utterance& utterance, bool can_go_on) {
 }
 
 std::size_t PlaceQueue::last_tied_to(std::size_t place) const noexcept {
-  std::size_t last = place;
-  for (std::size_t i = place; i <= last; ++i) {
-    for (const PlacePart& part : places_[i].parts) {
-      last = std::max(last, std::min(i + std::max<std::size_t>(part.places, 1), places_.size()) - 1);
-    }
-  }
-  return last;
+  return signweave::last_tied_to(places_, place);
 }
 
 bool PlaceQueue::goes_on() const noexcept {
-  return next_ < places_.size() && std::ranges::any_of(non_manuals_, [&](const NonManual& one) {
-           return one.first < next_ && next_ <= one.last;
-         });
+  if (next_ >= places_.size()) return false;
+  for (std::size_t i = first_over(next_); i < non_manuals_.size() && non_manuals_[i].first < next_; ++i) {
+    if (next_ <= non_manuals_[i].last) return true;
+  }
+  return false;
+}
+
+std::size_t PlaceQueue::first_over(std::size_t place) const noexcept {
+  const std::size_t earliest = place + 1 - std::min(place + 1, kMostTied);
+  const auto at = std::ranges::lower_bound(non_manuals_, earliest, {}, &NonManual::first);
+  return static_cast<std::size_t>(at - non_manuals_.begin());
 }
 
 Utterance PlaceQueue::part(std::size_t first, std::size_t last) const {

@@ -69,7 +69,10 @@ class PlaceQueue {
   std::optional<Side> wanted_hand(std::size_t place) const noexcept;
   /// Between places.
   const std::vector<ChannelHold>& holds() const noexcept { return holds_; }
+  /// In the order of their begins.
   const std::vector<NonManual>& non_manuals() const noexcept { return non_manuals_; }
+  /// The index of the first of them that may be over a place.
+  std::size_t first_over(std::size_t place) const noexcept;
   /// How many of them were dropped with their places since the last `replace`.
   std::size_t forgotten_non_manuals() const noexcept { return forgotten_non_manuals_; }
 

@@ -38,6 +38,7 @@ struct Size {
   int long_rounds = 201;
   std::vector<std::size_t> paced = {100, 500, 1000};
   std::size_t in_lanes = 500;
+  std::size_t looped_in_lanes = 8;  // places of one stream's utterance
   double settle = 2;
   double first_seconds = 5;
   double until_again = 10;  // by then the longest of the utterances has begun again
@@ -262,9 +263,9 @@ void lanes(const Server& server, Utterances& utterances, const Size& size) {
   const std::size_t count = size.in_lanes;
   const std::string name = fmt::format("stream/lanes:{}", count);
   const Looped whole = paced_by_server(
-      server, [&] { return utterances.of(kOfPaced); }, count, size);
+      server, [&] { return utterances.of(size.looped_in_lanes); }, count, size);
   const Looped ours = paced_by_server(
-      server, [&] { return utterances.in_four_lanes(kOfPaced); }, count, size);
+      server, [&] { return utterances.in_four_lanes(size.looped_in_lanes); }, count, size);
   for (const auto& [part, a, b] : {std::tuple(std::string(), &ours.again, &whole.again),
                                    {std::string("/first_time"), &ours.first_time, &whole.first_time}}) {
     print_missed(name + part + "/missed_of_due", *a);
@@ -390,7 +391,7 @@ int main(int argc, char** argv) {
   for (std::size_t i = 0; i < words.size(); ++i) {
     if (words[i] == "--quick") {
       minutes = 2;
-      size = {30, 20, 100, 7, {50}, 50, 0.5, 1, 0.5, 1.5, 2, 0.2, 10, 0.5};
+      size = {30, 20, 100, 7, {50}, 50, 1, 0.5, 1, 0.5, 1.5, 2, 0.2, 10, 0.5};
     } else if (words[i] == "--database" && i + 1 < words.size()) {
       database = words[++i];
     } else if (words[i] == "--only" && i + 1 < words.size()) {

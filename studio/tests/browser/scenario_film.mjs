@@ -13,7 +13,7 @@ const [site, out] = process.argv.slice(2)
 /** Frames a second. */
 const kRate = 15
 /** Bits per pixel: most of the picture stands still. */
-const kBits = 0.05
+const kBits = 0.035
 const kSize = { width: 960, height: 860 }
 
 /** The encoder, as a script. */

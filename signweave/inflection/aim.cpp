@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "signweave/core/error.h"
+#include "signweave/inflection/reach.h"
 #include "signweave/inflection/slots.h"
 #include "signweave/motion/turn_between.h"
 
@@ -22,8 +23,6 @@ using Eigen::Vector3f;
 
 /// If neither end of a stroke is farther out, a palm that is nearer than this is at the signer. Shoulder widths. (ours)
 constexpr float kAtSigner = 0.75f;
-/// The share of an arm's length that is used without need. (ours)
-constexpr float kStretched = 0.95f;
 /// Shorter movements have no direction of their own. Metres. (ours)
 constexpr float kNoMovement = 0.05f;
 /// A hand whose locus is the signer is this far in front of the chest. Shoulder widths. (ours)
@@ -64,24 +63,10 @@ struct StrokeEnd {
   bool touches = false;
 };
 
-/// The sphere in which an arm's palm stays.
-struct Reach {
-  Vector3f shoulder = Vector3f::Zero();
-  float most = 0;  ///< metres
-};
-Reach reach_of(const StrokeChanger& changer, const CapturedStroke& stroke, Side side) {
-  Reach reach{.shoulder = stroke.first(side).shoulder,
-              .most = kStretched * changer.body().arm_length * changer.body().shoulder_width};
-  for (const CapturedStroke::Sample& sample : stroke.samples) {
-    reach.most = std::max(reach.most, (stroke.palm(sample, side) - reach.shoulder).norm());
-  }
-  return reach;
-}
-
 /// Places of palms for loci. All in metres, the stroke's axes.
 class Places {
  public:
-  Places(const SignerBody& body, const Reach& reach, StrokeEnd begin, StrokeEnd end)
+  Places(const SignerBody& body, const PalmReach& reach, StrokeEnd begin, StrokeEnd end)
       : unit_(body.shoulder_width), reach_(reach), begin_(begin), end_(end) {
     const float outward = level(end_.palm) - level(begin_.palm);
     guess(begin_, outward);
@@ -106,7 +91,7 @@ class Places {
     Vector3f palm = yaw_of(turn) * base.palm;
     const float rise = elevation(wanted->at) - (base.locus->self ? 0 : elevation(base.locus->at));
     palm.y() += level(palm) * std::tan(std::clamp(rise, -kMostPitch * kDegree, kMostPitch * kDegree));
-    return within_reach(palm);
+    return reach_.within(palm);
   }
   float turn_of(bool at_end, const std::optional<Locus>& wanted) const {
     const StrokeEnd& own = at_end ? end_ : begin_;
@@ -115,16 +100,6 @@ class Places {
   }
 
  private:
-  /// Nearer to the signer in the same direction, as far as the arm needs it.
-  Vector3f within_reach(const Vector3f& palm) const {
-    const auto nearer = [&](float share) { return Vector3f(share * palm.x(), palm.y(), share * palm.z()); };
-    const auto reaches = [&](float share) { return (nearer(share) - reach_.shoulder).norm() <= reach_.most; };
-    if (reaches(1)) return palm;
-    float inside = 0;
-    float outside = 1;
-    for (int i = 0; i < 12; ++i) (reaches((inside + outside) / 2) ? inside : outside) = (inside + outside) / 2;
-    return reaches(inside) ? nearer(inside) : palm;
-  }
   static float elevation(const Vector3f& point) { return std::atan2(point.y(), level(point)); }
   /// `outward`: how much farther from the signer the other end is.
   void guess(StrokeEnd& end, float outward) const {
@@ -135,7 +110,7 @@ class Places {
   }
 
   float unit_;
-  Reach reach_;
+  PalmReach reach_;
   StrokeEnd begin_, end_;
 };
 
@@ -197,8 +172,8 @@ void check_in_front(const std::optional<Locus>& locus) {
 
 /// The change of a hand, or of both if they keep to each other.
 StrokeChange change_of(const CapturedStroke& stroke, Side side, ArmChange arm) {
-  StrokeChange change{.arms = {}, .together = stroke.together};
-  if (stroke.together) change.arms[slot(inflection::other(side))] = arm;
+  StrokeChange change{.arms = {}, .together = stroke.together()};
+  if (stroke.together()) change.arms[slot(inflection::other(side))] = arm;
   change.arms[slot(side)] = std::move(arm);
   return change;
 }

@@ -25,7 +25,7 @@ CapturedStroke::Sample sample_of(StrokeChanger& changer, const StrokeSpace& spac
 }  // namespace
 
 Eigen::Vector3f CapturedStroke::palm(const Sample& sample, Side side) const noexcept {
-  if (together) return (sample.hands[0].palm + sample.hands[1].palm) / 2;
+  if (together()) return (sample.hands[0].palm + sample.hands[1].palm) / 2;
   return sample.hands[slot(side)].palm;
 }
 
@@ -62,7 +62,7 @@ CapturedStroke captured_stroke(StrokeChanger& changer, const MotionSource& sourc
           ? Side::left
           : Side::right;
   if (changer.has(Side::left) && changer.has(Side::right)) {
-    const bool touch = std::ranges::any_of(stroke.samples, [](const CapturedStroke::Sample& one) {
+    stroke.touch = std::ranges::any_of(stroke.samples, [](const CapturedStroke::Sample& one) {
       return signweave::has(one.touched[0], Contact::hands) || signweave::has(one.touched[1], Contact::hands);
     });
     const float shorter = std::min(stroke.path_length[0], stroke.path_length[1]);
@@ -71,7 +71,7 @@ CapturedStroke captured_stroke(StrokeChanger& changer, const MotionSource& sourc
     const auto rests = [&](Side side) {
       return stroke.first(side).palm.y() < waist && stroke.last(side).palm.y() < waist;
     };
-    stroke.together = touch || (shorter > kMovesToo * longer && !rests(Side::left) && !rests(Side::right));
+    stroke.both_move = shorter > kMovesToo * longer && !rests(Side::left) && !rests(Side::right);
   }
   return stroke;
 }

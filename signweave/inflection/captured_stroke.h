@@ -24,12 +24,14 @@ struct CapturedStroke {
   std::array<HandDepths, 2> depth{};  ///< [Side] in trunk and head, at the deepest sample
   HandsMeeting meeting;
   std::array<float, 2> path_length{};  ///< [Side] of the palm, metres
-  /// The hands touch, or both move and neither rests: they are changed together.
-  bool together = false;
-  Side dominant = Side::right;  ///< the hand with the longer path
+  bool touch = false;                  ///< the hands touch each other in some sample
+  bool both_move = false;              ///< neither hand rests, and none moves much less than the other
+  Side dominant = Side::right;         ///< the hand with the longer path
 
   const HandInSpace& first(Side side) const noexcept { return samples.front().hands[static_cast<std::size_t>(side)]; }
   const HandInSpace& last(Side side) const noexcept { return samples.back().hands[static_cast<std::size_t>(side)]; }
+  /// The hands are changed together.
+  bool together() const noexcept { return touch || both_move; }
   /// The palm of a hand, or the middle between both that are changed together.
   Eigen::Vector3f palm(const Sample& sample, Side side) const noexcept;
 };

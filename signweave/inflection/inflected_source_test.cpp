@@ -99,7 +99,7 @@ TEST(InflectedSource, TheTrunkTurnsWithoutTheHand) {
 
 TEST(InflectedSource, HandsThatKeepToEachOtherDo) {
   Stroke stroke(testing_person::together);
-  ASSERT_TRUE(stroke.captured.together);
+  ASSERT_TRUE(stroke.captured.touch);
   StrokeChange change = moved(stroke);
   change.together = true;
   change.arms[kRight]->linear *= 1.1f;

@@ -52,10 +52,10 @@ std::string_view name_of(BodyPart part) noexcept {
 
 std::string_view name_of(UtteranceFault::Kind kind) noexcept {
   static constexpr std::array<std::string_view, kUtteranceFaultKinds> kNames = {
-      "open_quote",  "empty_name",    "bad_suffix",      "token_zero",     "piece_order",
-      "too_long",    "open_bracket",  "stray_bracket",   "nested_bracket", "too_deep",
-      "empty_group", "unknown_part",  "repeated_part",   "bad_option",     "unknown_expression",
-      "bad_sync",    "pause_in_part", "nothing_to_hold", "no_such_place",  "long_mouthing",
+      "open_quote",    "empty_name",    "bad_suffix",         "token_zero",    "piece_order",     "too_long",
+      "open_bracket",  "stray_bracket", "nested_bracket",     "too_deep",      "empty_group",     "unknown_part",
+      "repeated_part", "bad_option",    "unknown_expression", "bad_sync",      "pause_in_part",   "nothing_to_hold",
+      "no_such_place", "long_mouthing", "bad_locus",          "unknown_locus", "repeated_option",
   };
   return kNames[static_cast<std::size_t>(kind)];
 }

@@ -12,6 +12,7 @@
 
 #include "signweave/core/time.h"
 #include "signweave/rig/part.h"
+#include "signweave/space/change.h"
 
 namespace signweave {
 
@@ -79,6 +80,7 @@ struct Place : SignRef {
   Milliseconds pause_before{0};  ///< extra time before it
   std::vector<PlacePart> parts;  ///< those that begin with it, each part once, in the order of the text
   std::optional<Side> dominant;  ///< the hand that signs it as the dominant one; none: the signer's
+  SpaceChange space;             ///< where it goes, and how its strokes are changed
   friend bool operator==(const Place&, const Place&) = default;
 };
 
@@ -109,7 +111,7 @@ struct NonManual {
   enum class Kind : std::uint8_t {
     expression,  ///< `what` is the name of an expression, such as "brows up"
     mouthing,    ///< `what` is the text to be mouthed
-    gaze,        ///< `what` is a direction without its "@", such as "left" or "addressee"
+    gaze,        ///< `what` is a direction or a locus without its "@", such as "left", "addressee" or "30/10"
   };
   Kind kind = Kind::expression;
   std::string what;
@@ -125,6 +127,7 @@ struct Utterance {
   std::vector<Place> places;
   std::vector<HandHold> holds;         ///< in the order of their begins
   std::vector<NonManual> non_manuals;  ///< in the order of their begins; an outer one before those inside it
+  std::vector<LocusSetup> loci = {};   ///< in the order of their places; each name once at a place
   friend bool operator==(const Utterance&, const Utterance&) = default;
 };
 
@@ -167,13 +170,16 @@ struct UtteranceFault {
     nothing_to_hold,     ///< a hold at the first place
     no_such_place,       ///< `..GLOSS` or `..+COUNT` finds no place
     long_mouthing,       ///< more than kMostMouthingCharacters
+    bad_locus,           ///< no locus, or one that cannot be set up
+    unknown_locus,       ///< a locus that is neither built in nor set up by that place
+    repeated_option,     ///< a change in space, or a locus, is given twice for the same place
   };
   Kind kind = Kind::open_quote;
   WordSpan at;              ///< of an open quote: to the end of the text
   std::string message;      ///< what is wrong and how to fix it, in one line
   std::string replacement;  ///< the text of `at` without this fault; empty if only the author can know it
 };
-inline constexpr std::size_t kUtteranceFaultKinds = 20;
+inline constexpr std::size_t kUtteranceFaultKinds = 23;
 
 /// The maximum number of faults that are reported for one text.
 inline constexpr std::size_t kMostUtteranceFaults = 20;
@@ -192,11 +198,11 @@ struct UtteranceWords {
   /// A word for which it is true is that gloss, whatever brackets, `|`, `@`, … it contains; of several such beginnings
   /// of a word the longest is. Called only for words with such characters, for `hold` and for `rest`. Empty: false.
   std::function<bool(std::string_view)> is_gloss;
-  /// Whether an expression exists. Empty: true.
+  /// Whether an expression exists. Empty: true, except for those that are called as a change in space, such as `slow`.
   std::function<bool(std::string_view)> is_expression;
   /// The expressions whose names are similar, the nearest first. Called for those that do not exist. Empty: none.
   std::function<std::vector<std::string>(std::string_view)> near_expressions = {};
-  /// The text follows other places, so a hand can be held in its first one.
+  /// The text follows other places, so a hand can be held in its first one, and loci may be set up before it.
   bool follows = false;
 };
 
@@ -211,8 +217,8 @@ struct UtteranceText {
 /// Reads the notation of utterances (docs/utterance.md): glosses separated by white space. Only double quotes quote,
 /// and everything inside them is literal, `""` a quote. `MATIN#3` is a token, `"ISL Thanks"@1200..3400` a piece of a
 /// recording in ms; `,` and `.` as separate words are pauses (ignored before the first sign). `[A | weak: B]` is what
-/// parts of the signer do meanwhile, `A{mouth "a"}` are options of a place, `{brows up: A B}` is a scope. Faulty words
-/// are left out and reported. The time is linear in the length of the text.
+/// parts of the signer do meanwhile, `A{mouth "a"}` and `A{to @left}` are options of a place, `{brows up: A B}` is a
+/// scope. Faulty words are left out and reported. The time is linear in the length of the text.
 UtteranceText read_utterance(std::string_view text, const UtteranceWords& words = {});
 
 /// Returns the utterance of a text without faults. Throws Error{bad_input, "utterance:LINE:COLUMN: …"} for the first

@@ -6,33 +6,13 @@
 #include <array>
 
 #include "signweave/core/text.h"
+#include "signweave/notation/utterance_space.h"
 
 namespace signweave::utterances {
 namespace {
 
 using enum UtteranceFault::Kind;
 
-struct OptionToken {
-  std::string text;
-  bool quoted = false;
-  WordSpan at;
-  bool is(std::string_view word) const { return !quoted && text == word; }
-};
-
-/// An option before it is known what it asks for.
-struct RawOption {
-  std::vector<OptionToken> tokens;  ///< without its extent
-  std::optional<Extent> extent;
-  bool faulty = false;  ///< a fault was reported
-  WordSpan at;
-};
-
-/// The texts of tokens with single blanks between them.
-std::string joined(std::span<const OptionToken> tokens) {
-  std::string text;
-  for (const OptionToken& token : tokens) text += (text.empty() ? "" : " ") + token.text;
-  return text;
-}
 bool none_quoted(std::span<const OptionToken> tokens) {
   return std::ranges::none_of(tokens, &OptionToken::quoted);
 }
@@ -53,6 +33,7 @@ class OptionsReader {
     cursor_.report(bad_option, raw.at, std::move(message), std::move(replacement));
   }
   std::optional<RawOption> read_raw();
+  bool skip_colon(const RawOption& raw);
   bool read_token(RawOption& raw);
   bool read_extent(RawOption& raw);
   void read_labelled(const RawOption& raw);
@@ -137,12 +118,23 @@ bool OptionsReader::read_token(RawOption& raw) {
   return true;
 }
 
+/// Skips the colon of "from: @left" and the blanks behind it; false if none is here.
+bool OptionsReader::skip_colon(const RawOption& raw) {
+  if (of_ == OptionsOf::scope || !at_label() || !may_have_colon(raw)) return false;
+  const std::size_t colon = cursor_.at;
+  ++cursor_.at;
+  cursor_.skip_blanks();
+  if (cursor_.here() == '@') return true;
+  cursor_.at = colon;
+  return false;
+}
+
 /// Reads up to what closes the option; none if nothing does.
 std::optional<RawOption> OptionsReader::read_raw() {
   RawOption raw;
   cursor_.skip_blanks();
   raw.at = {cursor_.at, cursor_.at + 1};
-  while (!at_end_of_option()) {
+  while (!at_end_of_option() || skip_colon(raw)) {
     if (cursor_.ended() || !read_token(raw)) return std::nullopt;
     raw.at.end = cursor_.at;
     cursor_.skip_blanks();
@@ -322,7 +314,7 @@ bool OptionsReader::take_what(const RawOption& raw, NonManual& non_manual) {
 void OptionsReader::interpret(RawOption raw) {
   if (raw.faulty) return;
   if (raw.tokens.empty()) return fault(raw, "an option is missing here; give one, such as brows up");
-  if (interpret_hand(raw)) return;
+  if (interpret_hand(raw) || read_space_option(cursor_, raw, of_, options_.space)) return;
   NonManual non_manual;
   if (!take_offsets(raw, non_manual) || !take_what(raw, non_manual)) return;
   if (raw.extent && of_ == OptionsOf::scope) return fault(raw, "a scope ends with its last place; leave out the '..'");
@@ -354,6 +346,12 @@ Options OptionsReader::read() {
 }
 
 }  // namespace
+
+std::string joined(std::span<const OptionToken> tokens) {
+  std::string text;
+  for (const OptionToken& token : tokens) text += (text.empty() ? "" : " ") + token.text;
+  return text;
+}
 
 Options read_options(Cursor& cursor, OptionsOf of) {
   return OptionsReader(cursor, of).read();

@@ -4,6 +4,7 @@
 #include <span>
 
 #include "signweave/notation/utterance.h"
+#include "signweave/notation/utterance_space.h"
 #include "signweave/notation/utterance_word.h"
 
 namespace signweave {
@@ -22,6 +23,7 @@ bool is_expression_word(std::string_view word, bool first) {
 }  // namespace
 
 std::string expression_text(const std::string& name) {
+  if (is_space_option(name)) return in_quotes(name);
   std::string_view rest = name;
   for (bool first = true;; first = false) {
     const std::size_t blank = std::min(rest.find(' '), rest.size());
@@ -98,6 +100,7 @@ class UtterancePrinter {
     std::size_t scopes_ended = 0;                    ///< those that end here
     std::vector<const NonManual*> non_manuals;       ///< written as options
     std::vector<const HandHold*> holds;              ///< that begin here
+    std::vector<const LocusSetup*> loci;             ///< that are set up here
   };
   void plan_brackets();
   void plan_scopes();
@@ -171,6 +174,8 @@ std::string UtterancePrinter::options_text(std::size_t place) const {
   }
   if (const auto side = utterance_.places[place].dominant)
     add(*side == Side::left ? "dominant left" : "dominant right");
+  for (const LocusSetup* locus : layout.loci) add(setup_text(*locus));
+  for (const std::string& change : space_texts(utterance_.places[place].space)) add(change);
   for (const HandHold* hold : layout.holds)
     add(fmt::format("{} hold{}", name_of(hold->hand), extent_text(hold->until - hold->from)));
   for (const NonManual* one : layout.non_manuals) add(non_manual_text(*one, extent_text(one->last - one->first)));
@@ -221,6 +226,7 @@ std::string UtterancePrinter::print() {
   for (const HandHold& hold : utterance_.holds) {
     if (hold.from != kPlaceBefore) layout_[hold.from].holds.push_back(&hold);
   }
+  for (const LocusSetup& locus : utterance_.loci) layout_[locus.from].loci.push_back(&locus);
   for (std::size_t i = 0; i < layout_.size(); ++i) {
     const Place& place = utterance_.places[i];
     if (i > 0) text_ += ' ';

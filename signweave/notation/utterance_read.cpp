@@ -6,6 +6,7 @@
 #include "signweave/notation/utterance.h"
 #include "signweave/notation/utterance_ends.h"
 #include "signweave/notation/utterance_options.h"
+#include "signweave/notation/utterance_space.h"
 #include "signweave/notation/utterance_word.h"
 
 namespace signweave {
@@ -33,12 +34,7 @@ struct OpenGroup {
   std::size_t non_manual = 0;  ///< the first of its own
   std::size_t non_manuals = 0;
   std::optional<Side> dominant{};
-};
-
-/// Consecutive places, inclusive.
-struct PlaceRange {
-  std::size_t first = 0;
-  std::size_t last = 0;
+  SpaceOptions space{};
 };
 
 class UtteranceReader {
@@ -76,6 +72,7 @@ class UtteranceReader {
   Milliseconds pause_{0};
   std::vector<OpenGroup> groups_;
   std::vector<OpenEnd> ends_;
+  SpaceOfPlaces space_;
   std::vector<std::uint8_t> held_;  ///< [place] the hands that are held from it, one bit each
 };
 
@@ -131,6 +128,7 @@ void UtteranceReader::take(Options options, PlaceRange range) {
           {OpenEnd::Of::non_manual, std::move(*one.extent), range.last, 0, out_.utterance.non_manuals.size() - 1});
   }
   if (options.dominant) set_dominant(range, *options.dominant);
+  space_.take(std::move(options.space), range, out_.utterance, cursor_);
 }
 
 /// What closes something is followed by a blank, or by what closes something else.
@@ -229,7 +227,11 @@ void UtteranceReader::begin_scope(std::size_t begin) {
                                    "a scope has options, a colon and places: {brows up: A B}; quote the word if it is "
                                    "a gloss");
   }
-  OpenGroup group{.at = begin, .first = places().size(), .faults = faults, .dominant = options.dominant};
+  OpenGroup group{.at = begin,
+                  .first = places().size(),
+                  .faults = faults,
+                  .dominant = options.dominant,
+                  .space = std::move(options.space)};
   std::vector<NonManual>& all = out_.utterance.non_manuals;
   group.non_manual = all.size();
   group.non_manuals = options.non_manuals.size();
@@ -241,7 +243,7 @@ void UtteranceReader::begin_scope(std::size_t begin) {
 }
 
 void UtteranceReader::end_scope() {
-  const OpenGroup group = std::move(groups_.back());
+  OpenGroup group = std::move(groups_.back());
   groups_.pop_back();
   std::vector<NonManual>& all = out_.utterance.non_manuals;
   if (places().size() == group.first) {
@@ -252,6 +254,7 @@ void UtteranceReader::end_scope() {
     const PlaceRange range{group.first, places().size() - 1};
     for (std::size_t i = 0; i < group.non_manuals; ++i) all[group.non_manual + i].last = range.last;
     if (group.dominant) set_dominant(range, *group.dominant);
+    space_.take(std::move(group.space), range, out_.utterance, cursor_);
   }
   require_blank('}');
 }
@@ -384,7 +387,9 @@ UtteranceText UtteranceReader::read() {
   }
   for (cursor_.skip_blanks(); !cursor_.ended() && !cursor_.stopped; cursor_.skip_blanks()) read_word();
   finish_groups();
+  const bool sound = cursor_.fault_count() == 0;
   finish_ends(out_.utterance, ends_, cursor_);
+  space_.finish(out_.utterance, cursor_, sound);
   sort();
   out_.pause_after = pause_;
   out_.faults = std::move(cursor_.faults());

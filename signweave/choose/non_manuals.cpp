@@ -6,6 +6,7 @@
 #include <cmath>
 #include <optional>
 
+#include "signweave/choose/space_gaze.h"
 #include "signweave/nonmanual/blinks.h"
 #include "signweave/nonmanual/gaze.h"
 #include "signweave/nonmanual/mouthing/mouthing.h"
@@ -31,16 +32,12 @@ class PlaceTimes {
     const std::size_t body = body_clips(score_);
     std::size_t found = 0;
     while (found + 1 < body && score_.clips[found + 1].place <= place) ++found;
-    const Clip& clip = score_.clips[found];
-    PlaceTime time{.preparation = ms(clip.at.begin), .stroke = {ms(clip.at.begin), ms(clip.at.end)}};
-    const auto sign = std::ranges::find(clip.sign_places, place);
-    if (sign == clip.sign_places.end()) return time;
-    const Sign& of_place = clip.signs[static_cast<std::size_t>(sign - clip.sign_places.begin())];
-    if (const std::optional<TimeSpan> stroke = of_place.stroke_span()) {
-      time.stroke = {std::clamp(output(clip, stroke->begin), ms(clip.at.begin), ms(clip.at.end)),
-                     std::clamp(output(clip, stroke->end), ms(clip.at.begin), ms(clip.at.end))};
+    PlaceTime time = in_clip(place, found);
+    while (found > 0 && score_.clips[found - 1].place == score_.clips[found].place) {  // it is repeated
+      const PlaceTime before = in_clip(place, --found);
+      time.preparation = before.preparation;
+      time.stroke.begin = before.stroke.begin;
     }
-    time.preparation = std::min(time.stroke.begin, output(clip, of_place.span.begin));
     return time;
   }
 
@@ -56,6 +53,20 @@ class PlaceTimes {
   }
 
  private:
+  PlaceTime in_clip(std::size_t place, std::size_t number) const {
+    const Clip& clip = score_.clips[number];
+    PlaceTime time{.preparation = ms(clip.at.begin), .stroke = {ms(clip.at.begin), ms(clip.at.end)}};
+    const auto sign = std::ranges::find(clip.sign_places, place);
+    if (sign == clip.sign_places.end()) return time;
+    const Sign& of_place = clip.signs[static_cast<std::size_t>(sign - clip.sign_places.begin())];
+    if (const std::optional<TimeSpan> stroke = of_place.stroke_span()) {
+      time.stroke = {std::clamp(output(clip, stroke->begin), ms(clip.at.begin), ms(clip.at.end)),
+                     std::clamp(output(clip, stroke->end), ms(clip.at.begin), ms(clip.at.end))};
+    }
+    time.preparation = std::min(time.stroke.begin, output(clip, of_place.span.begin));
+    return time;
+  }
+
   Milliseconds output(const Clip& clip, Milliseconds recorded) const {
     const double frame = clip.clock.frame_at(recorded) - static_cast<double>(clip.core.begin);
     return ms(static_cast<double>(clip.at.begin) + frame / clip.step);
@@ -77,7 +88,7 @@ TimedCurve curve_of(const NonManual& one, const PlaceTime& first, const PlaceTim
     }
     case NonManual::Kind::gaze: {
       const TimeSpan span = gaze_span(first.preparation, last.stroke.end);
-      return {gaze_at(find_gaze(one.what), one.what), {span.begin + one.begin, span.end + one.end}};
+      return {gaze_at(direction_of_gaze(one.what), one.what), {span.begin + one.begin, span.end + one.end}};
     }
   }
   return {};

@@ -6,6 +6,7 @@
 #include <map>
 
 #include "signweave/choose/handedness.h"
+#include "signweave/choose/inflect.h"
 #include "signweave/choose/notices.h"
 #include "signweave/choose/on_skeleton.h"
 #include "signweave/core/error.h"
@@ -85,14 +86,15 @@ OpenScore::OpenScore(const Database& database, Score score, const FindSource& ot
   clips_ = clips_of(score_, find);
   mirror_marked(clips_, snapshot_, notices_);
   put_on_skeleton(clips_, score_.skeleton.recording, *home, contents, notices_);
-  rig_ = signer_rig_of(snapshot_, contents.at(score_.skeleton.recording));
+  rig_ = std::make_shared<const SignerRig>(signer_rig_of(snapshot_, contents.at(score_.skeleton.recording)));
+  read_changed(clips_, rig_);
   if (const TransitionMethod* const asking = method_with_needs(clips_, transition_methods().front())) {
-    captured_ = captured_spans(snapshot_, *home->skeleton(), rig_.groups, asking->fill->needs);
+    captured_ = captured_spans(snapshot_, *home->skeleton(), rig_->groups, asking->fill->needs);
   }
   renderer_.emplace(plan_of(score_, clips_), JunctionSettings{.skeleton = home->skeleton(),
                                                               .rate = score_.rate,
                                                               .method = &transition_methods().front(),
-                                                              .rig = &rig_,
+                                                              .rig = rig_.get(),
                                                               .model = captured_.model.get()});
 }
 

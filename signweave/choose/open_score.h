@@ -73,7 +73,7 @@ class OpenScore {
   Seconds reading_{0};
   std::vector<MotionClip> clips_;
   std::vector<Notice> notices_;
-  SignerRig rig_;
+  std::shared_ptr<const SignerRig> rig_;
   CapturedSpans captured_;
   std::optional<Renderer> renderer_;  ///< never empty; refers to the members above
 };

@@ -17,6 +17,7 @@
 #include "signweave/choose/on_skeleton.h"
 #include "signweave/choose/open_score.h"
 #include "signweave/choose/part_choice.h"
+#include "signweave/choose/space_gaze.h"
 #include "signweave/core/error.h"
 #include "signweave/database/signer_dominance.h"
 
@@ -31,6 +32,7 @@ struct ChosenClip {
   std::size_t place = 0;  ///< the first of its places, and so the number of the junction before it
   std::vector<std::size_t> sign_places = std::vector<std::size_t>(candidate.signs.size(), place);  ///< [sign]
   bool continues = false;                                                                          ///< see MotionClip
+  std::size_t repetition = 0;  ///< how often its place was signed before
 };
 
 /// What is signed: places, and what parts of the signer sign besides.
@@ -39,6 +41,7 @@ struct Wanted {
   std::vector<PartChoice> parts = {};
   std::vector<ChannelHold> holds = {};             ///< between places
   std::set<std::size_t> borders = {};              ///< places at which parts begin or end
+  std::set<std::size_t> generated = {};            ///< places before which no recorded transition is kept
   std::vector<std::optional<Side>> dominant = {};  ///< [place]; empty: as for all
   const Utterance* utterance = nullptr;            ///< null: an edit
 };
@@ -47,11 +50,13 @@ struct Wanted {
 /// `borders`, places at which parts begin or end, neighbours stay two clips with the recorded transition.
 std::vector<ChosenClip> merge_neighbours(const Contents& contents, const std::vector<Choice>& choices,
                                          const Selection& selection, const JunctionChoices& named,
-                                         const std::set<std::size_t>& borders, std::vector<Notice>& notices) {
+                                         const std::set<std::size_t>& borders, const std::set<std::size_t>& generated,
+                                         std::vector<Notice>& notices) {
   std::vector<ChosenClip> merged;
   for (std::size_t place = 0; place < choices.size(); ++place) {
     const Candidate& next = choices[place].candidates[selection.chosen[place]];
-    const bool goes_on = !merged.empty() && choices[place].pause_before == Milliseconds(0) &&
+    const bool goes_on = !merged.empty() && !generated.contains(place) &&
+                         choices[place].pause_before == Milliseconds(0) &&
                          (choices[place].continues || are_neighbours(contents, merged.back().candidate, next));
     if (goes_on && !named.contains(place) && !borders.contains(place)) {
       extend_with(merged.back().candidate, next);
@@ -80,6 +85,20 @@ void check_numbers(const JunctionChoices& named, std::size_t places) {
                                                 junctions == 0   ? "is none, because nothing is joined"
                                                 : junctions == 1 ? "is only junction 1"
                                                                  : fmt::format("are {}, counted from 1", junctions)));
+}
+
+/// Adds a clip for each repetition of a place.
+void repeat_places(std::vector<ChosenClip>& clips, const Utterance& utterance) {
+  std::vector<ChosenClip> all;
+  for (ChosenClip& clip : clips) {
+    const std::size_t times = utterance.places[clip.place].space.repetitions;
+    for (std::size_t i = 0; i < times; ++i) {
+      all.push_back(i + 1 < times ? clip : std::move(clip));
+      all.back().repetition = i;
+      all.back().continues = all.back().continues && i == 0;
+    }
+  }
+  clips = std::move(all);
 }
 
 /// The number of the clip that contains each place.
@@ -124,11 +143,26 @@ void mirror(std::vector<MotionClip>& clips, const std::vector<ChosenClip>& chose
     hands.push_back(own ? wanted.dominant[clip.place] : options.handedness);
   }
   mark_mirrored(clips, hands, snapshot, notices);
+  for (std::size_t i = 0; i < clips.size() - parts.size() && wanted.utterance != nullptr; ++i) {
+    if (wanted.utterance->places[chosen[i].place].space.mirrored) clips[i].mirrored = !clips[i].mirrored;
+  }
   const std::size_t body = clips.size() - parts.size();
   for (std::size_t i = 0; i < parts.size(); ++i) {
     if (parts[i].mirrored) clips[body + i].mirrored = *parts[i].mirrored;
   }
   mirror_marked(clips, snapshot, notices);
+}
+
+/// The whole-body clips whose places ask for changes.
+std::vector<ClipToInflect> clips_to_inflect(std::vector<MotionClip>& clips, const std::vector<ChosenClip>& chosen,
+                                            const Utterance& utterance, std::size_t body) {
+  std::vector<ClipToInflect> found;
+  for (std::size_t i = 0; i < body; ++i) {
+    const Place& place = utterance.places[chosen[i].place];
+    if (!is_changed(place)) continue;
+    found.push_back({&clips[i], chosen[i].place, repetitions_of(place.space)[chosen[i].repetition]});
+  }
+  return found;
 }
 
 /// `edited` is the name of the edited recording; empty for an utterance.
@@ -145,8 +179,9 @@ Synthesized run(const Snapshot& snapshot, Wanted wanted, std::string_view edited
     made.durations = durations_of(contents, *snapshot.learned(), options.duration);
   made.selection = select(snapshot, made.choices, {.transition = made.durations.mean, .explain = options.explain});
   std::vector<Notice> notices;
-  std::vector<ChosenClip> chosen_clips =
-      merge_neighbours(contents, made.choices, made.selection, options.junctions, wanted.borders, notices);
+  std::vector<ChosenClip> chosen_clips = merge_neighbours(contents, made.choices, made.selection, options.junctions,
+                                                          wanted.borders, wanted.generated, notices);
+  if (wanted.utterance != nullptr) repeat_places(chosen_clips, *wanted.utterance);
   ComposedParts composed = composed_parts(snapshot, wanted, made, chosen_clips);
   const std::size_t body = chosen_clips.size();
   for (const ChosenPart& part : composed.chosen) {
@@ -160,7 +195,7 @@ Synthesized run(const Snapshot& snapshot, Wanted wanted, std::string_view edited
   std::vector<MotionClip> clips;
   for (ChosenClip& chosen : chosen_clips) {
     Candidate& candidate = chosen.candidate;
-    const auto named = options.junctions.find(chosen.place);
+    const auto named = chosen.repetition > 0 ? options.junctions.end() : options.junctions.find(chosen.place);
     const bool is_part = clips.size() >= body;
     const RecordingInfo& info = contents.recordings[candidate.recording];
     for (const Sign& sign : candidate.left_out) {
@@ -168,20 +203,21 @@ Synthesized run(const Snapshot& snapshot, Wanted wanted, std::string_view edited
     }
     std::shared_ptr<const MotionSource>& source = sources[candidate.recording];
     if (!source) source = std::make_shared<TimedSource>(snapshot.motion(info), reading);
-    clips.push_back({.recording = info.name,
-                     .source = source,
-                     .whole = candidate.whole,
-                     .core = candidate.core,
-                     .clock = info.clock,
-                     .signs = std::move(candidate.signs),
-                     .pause_before = is_part ? Milliseconds(0) : made.choices[chosen.place].pause_before,
-                     .junction = is_part || named == options.junctions.end() ? JunctionChoice{} : named->second,
-                     .fingerprint = info.motion_facts.fingerprint,
-                     .place = chosen.place,
-                     .sign_places = std::move(chosen.sign_places),
-                     .continues = chosen.continues,
-                     .noise = snapshot.joins(candidate.recording)->noise,
-                     .at_rest = is_part && composed.chosen[clips.size() - body].rest});
+    clips.push_back(
+        {.recording = info.name,
+         .source = source,
+         .whole = candidate.whole,
+         .core = candidate.core,
+         .clock = info.clock,
+         .signs = std::move(candidate.signs),
+         .pause_before = is_part || chosen.repetition > 0 ? Milliseconds(0) : made.choices[chosen.place].pause_before,
+         .junction = is_part || named == options.junctions.end() ? JunctionChoice{} : named->second,
+         .fingerprint = info.motion_facts.fingerprint,
+         .place = chosen.place,
+         .sign_places = std::move(chosen.sign_places),
+         .continues = chosen.continues,
+         .noise = snapshot.joins(candidate.recording)->noise,
+         .at_rest = is_part && composed.chosen[clips.size() - body].rest});
   }
 
   std::size_t reference = 0;
@@ -192,7 +228,12 @@ Synthesized run(const Snapshot& snapshot, Wanted wanted, std::string_view edited
   mirror(clips, chosen_clips, wanted, composed.chosen, options, snapshot, notices);
   put_on_skeleton(clips, clips[reference].recording, *home, contents, notices);
   const RecordingInfo& layout = contents.at(clips[reference].recording);
-  const SignerRig rig = signer_rig_of(snapshot, layout);
+  const auto shared_rig = std::make_shared<const SignerRig>(signer_rig_of(snapshot, layout));
+  const SignerRig& rig = *shared_rig;
+  if (wanted.utterance != nullptr) {
+    inflect(clips_to_inflect(clips, chosen_clips, *wanted.utterance, body), *wanted.utterance, snapshot, shared_rig,
+            options.space, notices);
+  }
   const TransitionMethod& method = options.method != nullptr ? *options.method : transition_methods().front();
   CapturedSpans captured;
   if (const TransitionMethod* const asking = method_with_needs(clips, method)) {
@@ -297,9 +338,10 @@ void check(const SynthesisOptions& options) {
   }
 }
 
-Synthesized synthesize(const Database& database, const Utterance& utterance, const SynthesisOptions& options,
+Synthesized synthesize(const Database& database, const Utterance& requested, const SynthesisOptions& options,
                        Synthesis used) {
   const auto start = Clock::now();
+  const Utterance utterance = with_gazes_at_loci(requested);
   const Snapshot snapshot = database.snapshot();
   require_glosses(utterance, snapshot.contents().segments);
   const Side dominant = options.handedness.value_or(usual_hand(snapshot, utterance));
@@ -307,9 +349,12 @@ Synthesized synthesize(const Database& database, const Utterance& utterance, con
                 .parts = part_choices(snapshot.contents(), utterance, dominant),
                 .holds = channel_holds(utterance, dominant),
                 .borders = clip_borders(utterance),
+                .generated = generated_before(utterance),
                 .utterance = &utterance};
-  for (const Place& place : utterance.places) {
+  for (std::size_t i = 0; i < utterance.places.size(); ++i) {
+    const Place& place = utterance.places[i];
     wanted.choices.push_back({candidates_for(snapshot.contents(), place), place.pause_before});
+    prefer_loci(snapshot, utterance, i, wanted.choices.back().candidates);
     wanted.dominant.push_back(place.dominant);
   }
   return run(snapshot, std::move(wanted), {}, options, start, std::move(used));

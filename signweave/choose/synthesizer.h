@@ -8,6 +8,7 @@
 #include "signweave/choose/concatenate.h"
 #include "signweave/choose/durations.h"
 #include "signweave/choose/edit.h"
+#include "signweave/choose/inflect.h"
 #include "signweave/choose/non_manuals.h"
 #include "signweave/choose/open_score.h"
 #include "signweave/choose/select.h"
@@ -30,6 +31,7 @@ struct SynthesisOptions {
   bool explain = false;                    ///< fill Selection::explained
   NonManualOptions non_manuals;
   bool strict = false;  ///< what lint_channels finds is an error
+  SpaceOptions space;
 };
 
 /// Throws Error{bad_input} if an option is out of range. Junction numbers that are too high are reported later, once

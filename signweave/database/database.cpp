@@ -109,10 +109,7 @@ std::shared_ptr<const Contents> Database::contents_of(
   if (contents_ && contents_at_ > head.changes) return made;  // keep the newer state that another thread has cached
   contents_ = made;
   contents_at_ = head.changes;
-  joins_.clear();
-  signers_.clear();
-  mirrorings_.clear();
-  learned_.reset();
+  kept_ = {};
   std::erase_if(known_, [&](const auto& entry) {
     return std::none_of(made->recordings.begin(), made->recordings.end(), [&](const RecordingInfo& info) {
       return info.motion && info.motion->generation == entry.first;

@@ -17,6 +17,7 @@
 #include "signweave/core/error.h"
 #include "signweave/database/joins.h"
 #include "signweave/database/recording.h"
+#include "signweave/database/sign_loci.h"
 #include "signweave/features/hand_trace.h"
 #include "signweave/features/phase_features.h"
 #include "signweave/features/transition_stats.h"
@@ -85,6 +86,10 @@ class Snapshot {
   /// Returns how the motion of one of `contents().recordings` is mirrored (mirroring_of); measured once until the
   /// database changes. Throws what `motion` and mirroring_of throw.
   std::shared_ptr<const Mirroring> mirroring(const RecordingInfo& recording) const;
+
+  /// Returns the annotated loci of `contents().recordings[recording]` (loci_in); read once until the database changes.
+  /// Empty if it has no annotation. Throws Error{corrupt}.
+  std::shared_ptr<const std::vector<AnnotatedLocus>> loci(std::size_t recording) const;
 
   /// Returns the measures of the phases of `contents().recordings[recording]`, as Database::features does; only the
   /// reason if the record is damaged.
@@ -319,10 +324,15 @@ class Database {
   mutable std::uint64_t segments_at_ = 0;
   mutable std::shared_ptr<MovementCache> movement_;  ///< of the newest state that was queried
   mutable std::map<std::uint64_t, std::shared_ptr<const motion_db::KnownMotion>> known_;  ///< by generation
-  mutable std::map<std::size_t, std::shared_ptr<const RecordingJoins>> joins_;    ///< of contents_, by recording
-  mutable std::map<std::uint64_t, std::shared_ptr<const SignerModel>> signers_;   ///< of contents_, by generation
-  mutable std::map<std::uint64_t, std::shared_ptr<const Mirroring>> mirrorings_;  ///< likewise
-  mutable std::shared_ptr<const semantic_db::Learned> learned_;                   ///< of contents_
+  /// What was read or measured of the recordings of contents_.
+  struct Kept {
+    std::map<std::size_t, std::shared_ptr<const RecordingJoins>> joins;              ///< by recording
+    std::map<std::size_t, std::shared_ptr<const std::vector<AnnotatedLocus>>> loci;  ///< by recording
+    std::map<std::uint64_t, std::shared_ptr<const SignerModel>> signers;             ///< by generation
+    std::map<std::uint64_t, std::shared_ptr<const Mirroring>> mirrorings;            ///< by generation
+    std::shared_ptr<const semantic_db::Learned> learned;
+  };
+  mutable Kept kept_;
 };
 
 }  // namespace signweave

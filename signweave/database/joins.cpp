@@ -235,8 +235,8 @@ std::shared_ptr<const RecordingJoins> Snapshot::joins(std::size_t recording) con
   const Database& database = *database_;
   {
     const std::lock_guard guard(database.mutex_);
-    const auto at = database.joins_.find(recording);
-    if (database.contents_ == contents_ && at != database.joins_.end()) return at->second;
+    const auto at = database.kept_.joins.find(recording);
+    if (database.contents_ == contents_ && at != database.kept_.joins.end()) return at->second;
   }
   RecordingFeatures measured = features(recording);
   auto made =
@@ -245,7 +245,7 @@ std::shared_ptr<const RecordingJoins> Snapshot::joins(std::size_t recording) con
     made->noise = std::make_shared<const CaptureNoise>(std::move(measured.noise));
   }
   const std::lock_guard guard(database.mutex_);
-  if (database.contents_ == contents_) database.joins_[recording] = made;
+  if (database.contents_ == contents_) database.kept_.joins[recording] = made;
   return made;
 }
 

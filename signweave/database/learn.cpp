@@ -100,7 +100,7 @@ std::shared_ptr<const semantic_db::Learned> Snapshot::learned() const {
   const Database& database = *database_;
   {
     const std::lock_guard guard(database.mutex_);
-    if (database.contents_ == contents_ && database.learned_) return database.learned_;
+    if (database.contents_ == contents_ && database.kept_.learned) return database.kept_.learned;
   }
   std::optional<semantic_db::Learned> stored;
   try {
@@ -111,7 +111,7 @@ std::shared_ptr<const semantic_db::Learned> Snapshot::learned() const {
   const bool hold = stored && still_hold(*stored, catalogue::read_head(*transaction_).changes);
   auto made = std::make_shared<const semantic_db::Learned>(hold ? *stored : learn_from(*this));
   const std::lock_guard guard(database.mutex_);
-  if (database.contents_ == contents_) database.learned_ = made;
+  if (database.contents_ == contents_) database.kept_.learned = made;
   return made;
 }
 

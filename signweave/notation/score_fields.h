@@ -9,6 +9,7 @@
 
 #include "signweave/core/answer.h"
 #include "signweave/notation/score_json.h"
+#include "signweave/score/report.h"
 
 /// Inside the library and its programs only: the members of a score's JSON (core/answer.h).
 namespace signweave {
@@ -80,6 +81,60 @@ void fields(Visit& visit, const FrameClock& clock) {
 
 std::vector<ScoreSign> signs_of(const Clip& clip);
 
+inline std::array<float, 3> numbers_of(const Eigen::Vector3f& vector) {
+  return {vector.x(), vector.y(), vector.z()};
+}
+inline std::array<float, 4> numbers_of(const Eigen::Quaternionf& turn) {
+  return {turn.x(), turn.y(), turn.z(), turn.w()};
+}
+
+template <class Visit>
+void fields(Visit& visit, const PathPoint& point) {
+  visit.type("ScorePathPoint");
+  visit(AnswerField{.name = "shift", .help = "metres"}, numbers_of(point.shift));
+  visit(AnswerField{.name = "turn", .help = "axis times angle, radians"}, numbers_of(point.turn));
+  visit(AnswerField{.name = "swivel", .help = "of the elbow, radians"}, point.swivel);
+}
+
+/// One hand of a changed stroke.
+struct ScoreArmChange {
+  Side side = Side::left;
+  ArmChange change;
+};
+template <class Visit>
+void fields(Visit& visit, const ScoreArmChange& arm) {
+  const ArmChange& change = arm.change;
+  visit.type("ScoreArmChange");
+  visit(AnswerField{.name = "hand", .one_of = {"left", "right"}}, name_of(arm.side));
+  visit(AnswerField{.name = "linear", .help = "of the palm's place: three columns"},
+        std::array<std::array<float, 3>, 3>{numbers_of(change.linear.col(0)), numbers_of(change.linear.col(1)),
+                                            numbers_of(change.linear.col(2))});
+  visit(AnswerField{.name = "from", .help = "metres, in the axes of signer-centred space"}, numbers_of(change.from));
+  visit(AnswerField{.name = "to"}, numbers_of(change.to));
+  visit(AnswerField{.name = "turn", .help = "of the hand: a unit quaternion, x y z w"}, numbers_of(change.turn));
+  visit(AnswerField{.name = "carry", .help = "of the arm about the shoulder, likewise"}, numbers_of(change.carry));
+  visit(AnswerField{.name = "swivel", .help = "of the elbow, radians"}, change.swivel);
+  visit(AnswerField{.name = "path", .help = "displacements at equal steps of the stroke"}, change.path);
+}
+
+/// A change of a clip, with the numbers that make its frames.
+struct ScoreChange {
+  ClipChange change;
+};
+std::vector<ScoreArmChange> arms_of(const StrokeChange& change);
+std::vector<ScoreChange> changes_of(const Clip& clip);
+template <class Visit>
+void fields(Visit& visit, const ScoreChange& one) {
+  const StrokeChange& stroke = one.change.stroke;
+  visit.type("ScoreChange");
+  change_fields(visit, one.change);
+  visit(AnswerField{.name = "arms"}, arms_of(stroke));
+  visit(AnswerField{.name = "together", .help = "both hands keep to each other"}, stroke.together);
+  visit(AnswerField{.name = "trunk_yaw", .help = "radians, to the signer's left"}, stroke.trunk_yaw);
+  visit(AnswerField{.name = "before", .help = "recording frames over which the change begins"}, stroke.before);
+  visit(AnswerField{.name = "after", .help = "recording frames over which it ends"}, stroke.after);
+}
+
 template <class Visit>
 void fields(Visit& visit, const Clip& clip) {
   visit.type("ScoreClip");
@@ -100,6 +155,8 @@ void fields(Visit& visit, const Clip& clip) {
   visit(AnswerField{.name = "mirrored", .help = "shown with left and right exchanged; not if missing"},
         given_if(clip.mirrored, true));
   visit(AnswerField{.name = "at_rest", .help = "a hand that rests; not if missing"}, given_if(clip.at_rest, true));
+  visit(AnswerField{.name = "changes", .help = "of its core in space; missing: as captured"},
+        given_if(!clip.changes.empty(), changes_of(clip)));
 }
 
 template <class Visit>

@@ -174,6 +174,57 @@ HandPlace hand_place_from(const Value& value) {
   return place;
 }
 
+float float_from(const Value& value) {
+  return static_cast<float>(value.number());
+}
+
+ArmChange arm_change_from(const Value& value) {
+  ArmChange arm;
+  const Value columns = value["linear"];
+  if (columns.size() != 3) columns.fail("a list of three columns");
+  for (Eigen::Index i = 0; i < 3; ++i) {
+    Eigen::Vector3f column;
+    fill_numbers(columns.at(static_cast<std::size_t>(i)), column);
+    arm.linear.col(i) = column;
+  }
+  fill_numbers(value["from"], arm.from);
+  fill_numbers(value["to"], arm.to);
+  fill_numbers(value["turn"], arm.turn.coeffs());
+  fill_numbers(value["carry"], arm.carry.coeffs());
+  arm.swivel = float_from(value["swivel"]);
+  const Value path = value["path"];
+  if (path.size() > kMostPathPoints) path.fail(fmt::format("a list of at most {} points", kMostPathPoints));
+  for (std::size_t i = 0; i < path.size(); ++i) {
+    PathPoint& point = arm.path.emplace_back();
+    fill_numbers(path.at(i)["shift"], point.shift);
+    fill_numbers(path.at(i)["turn"], point.turn);
+    point.swivel = float_from(path.at(i)["swivel"]);
+  }
+  return arm;
+}
+
+ClipChange change_from(const Value& value) {
+  ClipChange change{.asked = value["asked"].text(),
+                    .basis = value["basis"].one_of(kChangeBases),
+                    .moved_mm = float_from(value["moved_mm"]),
+                    .turned_degrees = float_from(value["turned_degrees"]),
+                    .share = float_from(value["share"]),
+                    .missed_mm = float_from(value["missed_mm"]),
+                    .aim_degrees = float_from(value["aim_degrees"])};
+  if (value.has("because")) change.because = value["because"].text();
+  if (value.has("limit")) change.limit = value["limit"].text();
+  const Value arms = value["arms"];
+  for (std::size_t i = 0; i < arms.size(); ++i) {
+    const Side side = arms.at(i)["hand"].one_of(kSides);
+    change.stroke.arms[static_cast<std::size_t>(side)] = arm_change_from(arms.at(i));
+  }
+  change.stroke.together = value["together"].flag();
+  change.stroke.trunk_yaw = float_from(value["trunk_yaw"]);
+  change.stroke.before = value["before"].whole();
+  change.stroke.after = value["after"].whole();
+  return change;
+}
+
 Clip clip_from(const Value& value) {
   Clip clip{.id = value["id"].count<ClipId>(),
             .place = value["place"].count<std::size_t>(),
@@ -189,6 +240,10 @@ Clip clip_from(const Value& value) {
   if (!value["standing"].is_null()) clip.standing = standing_from(value["standing"]);
   if (value.has("mirrored")) clip.mirrored = value["mirrored"].flag();
   if (value.has("at_rest")) clip.at_rest = value["at_rest"].flag();
+  if (value.has("changes")) {
+    const Value changes = value["changes"];
+    for (std::size_t i = 0; i < changes.size(); ++i) clip.changes.push_back(change_from(changes.at(i)));
+  }
   const Value signs = value["signs"];
   for (std::size_t i = 0; i < signs.size(); ++i) {
     clip.signs.push_back(sign_from(signs.at(i)));
@@ -296,6 +351,20 @@ std::vector<ScoreSign> signs_of(const Clip& clip) {
   std::vector<ScoreSign> signs;
   for (std::size_t i = 0; i < clip.signs.size(); ++i) signs.push_back({clip.sign_places[i], clip.signs[i]});
   return signs;
+}
+
+std::vector<ScoreArmChange> arms_of(const StrokeChange& change) {
+  std::vector<ScoreArmChange> arms;
+  for (const Side side : kSides) {
+    if (const auto& arm = change.arms[static_cast<std::size_t>(side)]) arms.push_back({side, *arm});
+  }
+  return arms;
+}
+
+std::vector<ScoreChange> changes_of(const Clip& clip) {
+  std::vector<ScoreChange> changes;
+  for (const ClipChange& change : clip.changes) changes.push_back({change});
+  return changes;
 }
 
 std::string json_of(const Score& score) {

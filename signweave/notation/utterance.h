@@ -230,6 +230,8 @@ Utterance parse_utterance(std::string_view text, const UtteranceWords& words = {
 /// before the utterance.
 std::string to_string(const Utterance& utterance);
 std::string to_string(const GlossRef& gloss);
+/// The options of a change, without braces: "from @self to @a; big".
+std::string to_string(const SpaceChange& change);
 
 /// Parses "MATIN", "MATIN#3", "\"LE MANS\"#2". Throws as parse_utterance; `what` names the text in the error.
 GlossRef parse_gloss_ref(std::string_view text, std::string_view what);

@@ -241,6 +241,12 @@ std::string UtterancePrinter::print() {
 
 }  // namespace
 
+std::string to_string(const SpaceChange& change) {
+  std::string text;
+  for (const std::string& option : utterances::space_texts(change)) text += (text.empty() ? "" : "; ") + option;
+  return text;
+}
+
 std::string to_string(const GlossRef& gloss) {
   std::string text = quoted_if_needed(gloss.gloss);
   if (gloss.token > 0) text += fmt::format("#{}", gloss.token);

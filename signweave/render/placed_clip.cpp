@@ -34,7 +34,8 @@ std::int64_t PlacedClip::frame_of(std::int64_t recorded) const noexcept {
 
 PlacedClip placed_at_tempo(const MotionClip& clip, FrameRate rate, double tempo) {
   const FrameRate own = clip.source->rate();
-  return placed_by_step(clip, own == rate ? tempo : own.hertz() / rate.hertz() * tempo);
+  const double own_tempo = clip.speed == 1 ? tempo : tempo * clip.speed;
+  return placed_by_step(clip, own == rate ? own_tempo : own.hertz() / rate.hertz() * own_tempo);
 }
 
 PlacedClip placed_by_step(const MotionClip& clip, double step) {

@@ -241,7 +241,8 @@ std::vector<MotionClip> clips_of(const Score& score, const FindSource& find) {
                                                        .kind = clip.source.kind,
                                                        .noise = source.noise,
                                                        .mirrored = clip.mirrored,
-                                                       .at_rest = clip.at_rest});
+                                                       .at_rest = clip.at_rest,
+                                                       .changes = clip.changes});
     if (clip.id == 0) continue;
     const JunctionRef& junction = score.junctions[clip.id - 1];
     if (!junction.chosen.empty()) opened.junction = parse_junction("1=" + junction.chosen).choice;
@@ -294,7 +295,8 @@ Clip clip_of(const PlacedClip& placed, ClipId id) {
           .signs = clip.signs,
           .sign_places = places_of(clip, id),
           .mirrored = clip.mirrored,
-          .at_rest = clip.at_rest};
+          .at_rest = clip.at_rest,
+          .changes = clip.changes};
 }
 
 Score score_of(const Plan& plan, const JunctionSettings& settings, const SourceRef& skeleton) {

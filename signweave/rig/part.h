@@ -10,6 +10,9 @@ namespace signweave {
 
 enum class Side : std::uint8_t { left = 0, right = 1 };  ///< the signer's side
 inline constexpr std::array kSides = {Side::left, Side::right};
+constexpr std::string_view name_of(Side side) noexcept {
+  return side == Side::left ? "left" : "right";
+}
 
 enum class Finger : std::uint8_t { thumb = 0, index = 1, middle = 2, ring = 3, little = 4 };
 inline constexpr std::array kFingers = {Finger::thumb, Finger::index, Finger::middle, Finger::ring, Finger::little};

@@ -39,6 +39,9 @@ struct MotionClip {
   std::shared_ptr<const CaptureNoise> noise = nullptr;
   bool mirrored = false;  ///< `source` shows the recording with left and right exchanged
   bool at_rest = false;   ///< see Clip
+  /// See Clip; `source` has them already once the clip is inflected (choose/inflect.h).
+  std::vector<ClipChange> changes = {};
+  double speed = 1;  ///< of this clip besides the tempo of all
 };
 
 /// The place that one of a clip's signs fills; `number` is used for a clip without `place`.

@@ -133,9 +133,14 @@ class TierWriter {
     const ShownClip& placed = synthesis_.clips[clip];
     const double after = static_cast<double>(output.end - placed.core.begin) * placed.step;
     const double before = static_cast<double>(placed.core.begin - output.begin) * placed.step;
-    return fmt::format("clip {}, place {}: {} frames {:.10g}..{:.10g}{}", clip, synthesis_.score.clips[clip].place,
+    std::string changes;
+    for (const ClipChange& change : synthesis_.score.clips[clip].changes) {
+      changes += fmt::format(", {} ({}: {:.0f} mm, {:.0f}°)", change.asked, name_of(change.basis), change.moved_mm,
+                             change.turned_degrees);
+    }
+    return fmt::format("clip {}, place {}: {} frames {:.10g}..{:.10g}{}{}", clip, synthesis_.score.clips[clip].place,
                        placed.recording, placed.first_frame - before, placed.first_frame + after,
-                       synthesis_.score.clips[clip].mirrored ? ", mirrored" : "");
+                       synthesis_.score.clips[clip].mirrored ? ", mirrored" : "", changes);
   }
   /// The first tier of a name, from `first` on, on which nothing overlaps a time; added if there is none.
   Tier& free_tier(std::size_t first, const std::string& name, TimeSpan span) {

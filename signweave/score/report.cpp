@@ -77,7 +77,8 @@ SynthesisReport report_of(const Synthesis& synthesis) {
                             .place = clip.place,
                             .shown = synthesis.clips[i],
                             .mirrored = clip.mirrored,
-                            .at_rest = clip.at_rest});
+                            .at_rest = clip.at_rest,
+                            .changes = clip.changes});
   }
   for (std::size_t i = 0; i < synthesis.junctions.size(); ++i) {
     report.junctions.push_back(

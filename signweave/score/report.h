@@ -64,6 +64,33 @@ void fields(Visit& visit, const ReportSign& sign) {
   visit(AnswerField{.name = "phases"}, sign.phases);
 }
 
+/// The members that a change has in reports and in scores.
+template <class Visit>
+void change_fields(Visit& visit, const ClipChange& change) {
+  visit(AnswerField{.name = "asked", .help = "as in an utterance: to @left"}, change.asked);
+  visit(AnswerField{.name = "basis",
+                    .help = "where it comes from: numbers that were asked for, a token that was captured so, what was "
+                            "learned from the tokens of the gloss, or the geometry of one token",
+                    .one_of = {"asked", "captured", "learned", "geometric"}},
+        name_of(change.basis));
+  visit(AnswerField{.name = "because"}, given_if(!change.because.empty(), std::string_view(change.because)));
+  visit(AnswerField{.name = "moved_mm", .help = "the largest displacement of a palm"}, change.moved_mm);
+  visit(AnswerField{.name = "turned_degrees", .help = "the largest turn of a hand"}, change.turned_degrees);
+  visit(AnswerField{.name = "share", .help = "of what was asked for that is reached, from 0 to 1"}, change.share);
+  visit(AnswerField{.name = "limit", .help = "why not all of it"},
+        given_if(!change.limit.empty(), std::string_view(change.limit)));
+  visit(AnswerField{.name = "missed_mm", .help = "from where the stroke should end"}, change.missed_mm);
+  visit(AnswerField{.name = "aim_degrees", .help = "of a pointing sign: from the direction to its locus"},
+        change.aim_degrees);
+}
+
+/// A change of a clip's stroke in space.
+template <class Visit>
+void fields(Visit& visit, const ClipChange& change) {
+  visit.type("ReportChange");
+  change_fields(visit, change);
+}
+
 /// A clip: signs of one recording as they were captured. Frames are those of the new motion.
 struct ReportClip {
   std::size_t clip = 0;
@@ -71,6 +98,7 @@ struct ReportClip {
   ShownClip shown;
   bool mirrored = false;  ///< left and right are exchanged
   bool at_rest = false;   ///< a hand that rests
+  std::vector<ClipChange> changes = {};
 };
 template <class Visit>
 void fields(Visit& visit, const ReportClip& one) {
@@ -86,6 +114,8 @@ void fields(Visit& visit, const ReportClip& one) {
   visit(AnswerField{.name = "mirrored", .help = "left and right are exchanged; not if missing"},
         given_if(one.mirrored, true));
   visit(AnswerField{.name = "at_rest", .help = "a hand that rests; not if missing"}, given_if(one.at_rest, true));
+  visit(AnswerField{.name = "changes", .help = "of its strokes in space; missing: as captured"},
+        given_if(!one.changes.empty(), one.changes));
 }
 
 /// How a part of the body is cut at a junction.

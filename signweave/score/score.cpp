@@ -41,6 +41,14 @@ struct Checker {
     const bool of_body = index < body;
     require(!clip.mirrored || clip.source.kind == SourceRef::Kind::recording,
             "clip {} is mirrored, but not of kind 'recording'; only frames of recordings can be mirrored", index);
+    require(clip.changes.empty() || (clip.source.kind == SourceRef::Kind::recording && !clip.at_rest),
+            "clip {} is changed in space, but not of kind 'recording', or at rest", index);
+    for (const ClipChange& change : clip.changes) {
+      check(change.stroke);
+      require(std::isfinite(change.moved_mm) && std::isfinite(change.turned_degrees) && change.share >= 0 &&
+                  change.share <= 1 && std::isfinite(change.missed_mm) && std::isfinite(change.aim_degrees),
+              "a change of clip {} has no finite sizes", index);
+    }
     require(!clip.at_rest || (clip.signs.empty() && !of_body),
             "clip {} is at rest, but has signs or is of the body; only a single hand rests", index);
     require(in_range(clip.whole.begin) && in_range(clip.whole.end) && clip.whole.begin <= clip.core.begin &&

@@ -15,6 +15,7 @@
 #include "signweave/nonmanual/curve.h"
 #include "signweave/score/hand_place.h"
 #include "signweave/score/transition.h"
+#include "signweave/space/stroke_change.h"
 
 /// A score says what is signed, with which captured frames, and when: a plain value between the request and the motion.
 /// It contains no frames.
@@ -51,6 +52,9 @@ struct Clip {
   std::vector<std::size_t> sign_places;     ///< [sign] the place that it fills
   bool mirrored = false;                    ///< shown with left and right exchanged; signs are as annotated
   bool at_rest = false;                     ///< a hand that rests; no signs
+  /// Changes of its core in space, applied one after another to the captured frames: the only way in which the frames
+  /// of a core are not those of its recording.
+  std::vector<ClipChange> changes = {};
   friend bool operator==(const Clip&, const Clip&) = default;
 };
 

@@ -123,7 +123,7 @@ bool is_built_in_locus(std::string_view name) noexcept {
   return std::ranges::find(kBuiltIn, name) != kBuiltIn.end();
 }
 
-Locus resolve(const LocusRef& locus, std::span<const LocusSetup> setups, std::size_t place, const SignerBody& body) {
+LocusRef without_setups(const LocusRef& locus, std::span<const LocusSetup> setups, std::size_t place) {
   LocusRef known = locus;
   // A name is the last setup by this place; what that refers to was set up before it.
   for (std::size_t i = setups.size(); known.kind == LocusRef::Kind::name && !is_built_in_locus(known.name);) {
@@ -131,6 +131,11 @@ Locus resolve(const LocusRef& locus, std::span<const LocusSetup> setups, std::si
     if (i == 0) throw Error(ErrorCode::not_found, unknown_locus(known.name, setups, place));
     known = setups[--i].is;
   }
+  return known;
+}
+
+Locus resolve(const LocusRef& locus, std::span<const LocusSetup> setups, std::size_t place, const SignerBody& body) {
+  const LocusRef known = without_setups(locus, setups, place);
   const auto& [a, b, c] = known.numbers;
   if (known.kind == LocusRef::Kind::point) return {.at = {a, b, c}, .self = false};
   if (known.kind == LocusRef::Kind::angles) return {.at = point_of({a, b, c}), .self = false};

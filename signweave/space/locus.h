@@ -75,6 +75,9 @@ struct Locus {
   friend bool operator==(const Locus&, const Locus&) = default;
 };
 
+/// The same locus without names that were set up: numbers, or a built-in name. Throws as `resolve`.
+LocusRef without_setups(const LocusRef& locus, std::span<const LocusSetup> setups, std::size_t place);
+
 /// The locus of a place of an utterance: what its name was set up as by then. `left` and `right` are 45° aside and
 /// `front` is straight ahead, kLocusDistance away at the height of the shoulders; `addressee` is straight ahead, 5
 /// shoulder widths away; `self` is on the chest. Throws Error{not_found, "there is no locus 'b'; …"}.

@@ -1,6 +1,46 @@
 #include "signweave/space/stroke_change.h"
 
+#include <cmath>
+
+#include "signweave/core/error.h"
+
 namespace signweave {
+namespace {
+
+constexpr std::array<std::string_view, kChangeBases.size()> kBasisNames = {"asked", "captured", "learned", "geometric"};
+constexpr float kFarthest = 1e3f;  // metres
+
+bool is_rotation(const Eigen::Quaternionf& turn) {
+  return std::abs(turn.norm() - 1) < 1e-3f;
+}
+
+bool is_valid(const ArmChange& arm) {
+  const auto near = [](const auto& numbers) {
+    return numbers.allFinite() && numbers.cwiseAbs().maxCoeff() <= kFarthest;
+  };
+  bool valid = near(arm.linear) && near(arm.from) && near(arm.to) && is_rotation(arm.turn) && is_rotation(arm.carry) &&
+               std::abs(arm.swivel) <= kFarthest && arm.path.size() <= kMostPathPoints;
+  for (const PathPoint& point : arm.path) {
+    valid = valid && near(point.shift) && near(point.turn) && std::abs(point.swivel) <= kFarthest;
+  }
+  return valid;
+}
+
+}  // namespace
+
+std::string_view name_of(ChangeBasis basis) noexcept {
+  return kBasisNames[static_cast<std::size_t>(basis)];
+}
+
+void check(const StrokeChange& change) {
+  bool valid = std::abs(change.trunk_yaw) <= 1 && change.before >= 0 && change.after >= 0;
+  for (const std::optional<ArmChange>& arm : change.arms) valid = valid && (!arm || is_valid(*arm));
+  valid = valid && (!change.together || (change.arms[0] && change.arms[1]));
+  if (!valid) {
+    throw Error(ErrorCode::bad_input,
+                "a stroke is changed by numbers that are no map, turn or path; sign its utterance again");
+  }
+}
 
 bool operator==(const ArmChange& a, const ArmChange& b) noexcept {
   return a.linear == b.linear && a.from == b.from && a.to == b.to && a.turn.coeffs() == b.turn.coeffs() &&

@@ -49,4 +49,40 @@ struct StrokeChange {
   friend bool operator==(const StrokeChange&, const StrokeChange&) = default;
 };
 
+/// True if nothing is changed.
+inline bool is_as_captured(const StrokeChange& change) noexcept {
+  return !change.arms[0] && !change.arms[1] && change.trunk_yaw == 0;
+}
+
+/// Where a change comes from.
+enum class ChangeBasis : std::uint8_t {
+  asked = 0,      ///< the numbers were asked for
+  captured = 1,   ///< the token was captured with these loci; nothing is changed
+  learned = 2,    ///< learned from the gloss' tokens
+  geometric = 3,  ///< from one token, by geometry
+};
+inline constexpr std::array kChangeBases = {ChangeBasis::asked, ChangeBasis::captured, ChangeBasis::learned,
+                                            ChangeBasis::geometric};
+std::string_view name_of(ChangeBasis basis) noexcept;
+
+/// A change of a clip's stroke, with what reports say of it.
+struct ClipChange {
+  std::string asked;  ///< as in an utterance: "to @left"
+  ChangeBasis basis = ChangeBasis::asked;
+  std::string because;  ///< the reason for the basis, in one sentence; may be empty
+  StrokeChange stroke;
+  float moved_mm = 0;        ///< the largest displacement of a palm over the stroke
+  float turned_degrees = 0;  ///< the largest turn of a hand
+  float share = 1;           ///< of what was asked for that is reached
+  std::string limit;         ///< why not all of it; empty if `share` is 1
+  float missed_mm = 0;       ///< from where the stroke should end
+  float aim_degrees = 0;     ///< of a pointing sign: from the direction to its locus
+  friend bool operator==(const ClipChange&, const ClipChange&) = default;
+};
+
+/// Throws Error{bad_input} unless all numbers are finite and within sane limits, and `path` has at most
+/// kMostPathPoints.
+void check(const StrokeChange& change);
+inline constexpr std::size_t kMostPathPoints = 64;
+
 }  // namespace signweave

@@ -6,9 +6,11 @@
 #include <cmath>
 #include <optional>
 
+#include "signweave/core/text.h"
 #include "signweave/nonmanual/blinks.h"
 #include "signweave/nonmanual/gaze.h"
 #include "signweave/nonmanual/mouthing/mouthing.h"
+#include "signweave/space/locus.h"
 
 namespace signweave {
 namespace {
@@ -77,7 +79,7 @@ TimedCurve curve_of(const NonManual& one, const PlaceTime& first, const PlaceTim
     }
     case NonManual::Kind::gaze: {
       const TimeSpan span = gaze_span(first.preparation, last.stroke.end);
-      return {gaze_at(find_gaze(one.what), one.what), {span.begin + one.begin, span.end + one.end}};
+      return {gaze_at(gaze_direction_of(one.what), one.what), {span.begin + one.begin, span.end + one.end}};
     }
   }
   return {};
@@ -131,6 +133,17 @@ void add_blinks(const Utterance& utterance, const Score& score, const PlaceTimes
 }
 
 }  // namespace
+
+GazeDirection gaze_direction_of(std::string_view what) {
+  if (what.find_first_of("+-.0123456789") != 0) return find_gaze(what);
+  const LocusRef locus = read_locus(what);
+  if (locus.kind != LocusRef::Kind::angles) {
+    throw Error(ErrorCode::unsupported, fmt::format("a gaze at the point '@{}' is not possible yet; give angles such "
+                                                    "as gaze @30/10",
+                                                    printable(what)));
+  }
+  return {.yaw = locus.numbers[0], .pitch = locus.numbers[1]};
+}
 
 std::vector<AuthoredCurve> author_non_manuals(const Utterance& utterance, const Score& score,
                                               const NonManualOptions& options, std::vector<Notice>& notices) {

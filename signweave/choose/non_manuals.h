@@ -1,8 +1,10 @@
 #pragma once
 
+#include <string_view>
 #include <vector>
 
 #include "signweave/core/error.h"
+#include "signweave/nonmanual/curve.h"
 #include "signweave/nonmanual/expressions.h"
 #include "signweave/nonmanual/mouthing/pronounce.h"
 #include "signweave/notation/utterance.h"
@@ -17,6 +19,10 @@ struct NonManualOptions {
   bool blinks = false;  ///< blink at pauses and where expressions and gazes end, and sometimes elsewhere
   bool gaze = false;    ///< look at the addressee before the first sign, at pauses and after the last sign
 };
+
+/// The direction of NonManual::what of a gaze: one of named_gazes(), or angles such as "30/10". Throws Error{not_found}
+/// for an unknown name, with near matches; Error{bad_input} for angles out of range; Error{unsupported} for a point.
+GazeDirection gaze_direction_of(std::string_view what);
 
 /// The curves of an utterance's non-manuals in a score of it, and the gazes and blinks that are planned. Adds what
 /// could not be mouthed as written to `notices`. Throws Error{not_found} for an unknown expression or gaze, with near

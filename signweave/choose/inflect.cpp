@@ -187,8 +187,10 @@ class Inflector {
 
   SpaceRole role_of(const MotionClip& clip, const CapturedStroke& stroke, const StrokeChanger& changer,
                     const SpaceChange& asked) {
-    if (options_.role && !clip.signs.empty()) {
-      if (const std::optional<SpaceRole> role = options_.role(clip.signs.front().gloss)) return *role;
+    if (!clip.signs.empty()) {
+      if (const std::optional<SpaceRole> role = signweave::role_of(options_.roles, clip.signs.front().gloss)) {
+        return *role;
+      }
     }
     const SpaceRole role = guessed_role(stroke, changer);
     const bool places = asked.at && role != SpaceRole::aim;  // a sign can be made at a locus without a role

@@ -1,10 +1,8 @@
 #pragma once
 
-#include <functional>
 #include <memory>
 #include <set>
 #include <span>
-#include <string_view>
 #include <vector>
 
 #include "signweave/choose/candidate.h"
@@ -12,14 +10,13 @@
 #include "signweave/database/database.h"
 #include "signweave/notation/utterance.h"
 #include "signweave/score/motion_clip.h"
-#include "signweave/space/role.h"
+#include "signweave/space/roles.h"
 
 // Signs that are changed in space: which tokens are taken, and how their strokes change. Files and streams share these.
 namespace signweave {
 
 struct SpaceOptions {
-  /// The role of a gloss; null, or no value: it is guessed from the token's ends.
-  std::function<std::optional<SpaceRole>(std::string_view gloss)> role = {};
+  SpaceRoles roles;  ///< that of another gloss is guessed from its token
 };
 
 /// True if a place asks for a change.

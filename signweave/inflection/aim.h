@@ -7,7 +7,7 @@
 #include "signweave/inflection/fit_change.h"
 #include "signweave/space/change.h"
 #include "signweave/space/locus.h"
-#include "signweave/space/role.h"
+#include "signweave/space/roles.h"
 
 namespace signweave {
 

@@ -17,7 +17,8 @@ namespace {
 /// Options whose values a score has already decided. (Passed to CLI11, its help would list them all.)
 constexpr const char* kDecided[] = {"--transition", "--duration", "--tempo",   "--align",       "--handedness",
                                     "--junction",   "--rate",     "--missing", "--explain",     "--mouthing",
-                                    "--language",   "--blinks",   "--strict",  "--expressions", "--non-manuals"};
+                                    "--language",   "--blinks",   "--strict",  "--expressions", "--non-manuals",
+                                    "--role",       "--roles"};
 
 /// "bvh" of "out.bvh", and what is written alongside.
 std::vector<std::string> extensions_of(const Delivery& delivery) {
@@ -38,6 +39,7 @@ Run sign(CLI::App& verb) {
     std::string from;
     std::string frames;
     std::string expressions;
+    std::string roles;
     Delivery delivery;
   };
   auto options = std::make_shared<SignArguments>();
@@ -52,6 +54,9 @@ Run sign(CLI::App& verb) {
   verb.add_option("--expressions", options->expressions,
                   "a CSV file of expressions of your own (name,what,value), beside the built-in ones")
       ->check(CLI::ExistingFile);
+  verb.add_option("--roles", options->roles,
+                  "a CSV file of the roles of glosses in space (gloss,role), as --role gives them")
+      ->check(CLI::ExistingFile);
   const calls::Field frames = calls::frames_field();
   verb.add_option("--frames", options->frames, frames.help)->needs("--from")->check(frames.check);
   add_reports(verb, options->delivery);
@@ -61,6 +66,7 @@ Run sign(CLI::App& verb) {
       if (!options->from.empty() && verb.count(decided) > 0) throw CLI::ExcludesError("--from", decided);
     }
     if (!options->expressions.empty()) options->call.expressions = read_expressions(options->expressions);
+    if (!options->roles.empty()) options->call.roles = read_space_roles(options->roles);
     std::optional<Score> score;
     if (!options->from.empty()) score = score_from_json(read_file(options->from, kLargestScore), options->from);
     const Database database(options->folder, kv::Access::read_only);

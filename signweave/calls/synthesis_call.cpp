@@ -67,6 +67,26 @@ SynthesisOptions options_of(const SynthesisChoices& choices) {
   return options;
 }
 
+namespace {
+
+/// Adds "GLOSS=ROLE", instead of another role of the gloss.
+void add_role(const std::string& text, SpaceRoles& roles) {
+  const std::size_t at = text.rfind('=');
+  const std::string gloss = at == std::string::npos ? std::string() : match_form(text.substr(0, at));
+  if (!gloss.empty()) {
+    for (const SpaceRole role : kSpaceRoles) {
+      if (name_of(role) != text.substr(at + 1)) continue;
+      roles[gloss] = role;
+      return;
+    }
+  }
+  throw Error(ErrorCode::bad_input, fmt::format("role '{}' is not GLOSS=ROLE; a role is forward, backward, aim, both "
+                                                "or none, such as INVITER=backward",
+                                                printable(text)));
+}
+
+}  // namespace
+
 Synthesized run(const Database& database, const SignCall& call, std::int64_t most_frames) {
   SynthesisOptions options = options_of(call.how);
   options.most_frames = most_frames;
@@ -75,6 +95,8 @@ Synthesized run(const Database& database, const SignCall& call, std::int64_t mos
   options.non_manuals.blinks = call.blinks || call.non_manuals == "plan";
   options.non_manuals.pronounce.source = *mouthing_source(call.mouthing);
   options.non_manuals.pronounce.language = *mouthing_language(call.language);
+  options.space.roles = call.roles;
+  for (const std::string& text : call.role) add_role(text, options.space.roles);
   UtteranceWords words = words_of(database);
   words.is_expression = [&](std::string_view name) {
     return std::ranges::find(call.expressions, name, [](const NamedExpression& one) -> std::string_view {

@@ -113,7 +113,9 @@ struct SignCall {
   std::string non_manuals = "asked";
   bool blinks = false;
   SynthesisChoices how;
+  std::vector<std::string> role;
   Expressions expressions = built_in_expressions();  ///< not a parameter: the command line reads them from a file
+  SpaceRoles roles;                                  ///< likewise; those of `role` are added
 };
 
 template <class Visit>
@@ -145,6 +147,12 @@ void fields(Visit& visit, SignCall& call) {
               .shows_default = true,
               .one_of = {"fr", "en", "de", "nl"}},
         call.language);
+  visit(Field{.name = "role",
+              .help = "how a gloss refers to loci, such as INVITER=backward: forward (from its subject to its object), "
+                      "backward, aim (it points), both (each hand has one) or none; otherwise it is guessed",
+              .words = "GLOSS=ROLE",
+              .several_words = true},
+        call.role);
   visit(Field{.name = "non_manuals",
               .help = "which movements of face, gaze and head are shown over the captured ones: asked (those of the "
                       "utterance), plan (also blinks, and looks at the addressee at pauses and at both ends)",

@@ -41,7 +41,8 @@ Utterance with_gazes_at_loci(Utterance utterance) {
     const LocusRef ref = read_locus(one.what);
     if (ref.kind != LocusRef::Kind::name) continue;
     // What is neither set up nor a direction is refused where directions are read.
-    const bool set_up = std::ranges::any_of(utterance.loci, [&](const LocusSetup& setup) { return setup.name == ref.name; });
+    const bool set_up =
+        std::ranges::any_of(utterance.loci, [&](const LocusSetup& setup) { return setup.name == ref.name; });
     if (set_up || is_built_in_locus(ref.name)) one.what = to_string(without_setups(ref, utterance.loci, one.first));
   }
   for (std::size_t place = 0; place < utterance.places.size(); ++place) {

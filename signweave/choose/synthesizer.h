@@ -30,7 +30,7 @@ struct SynthesisOptions {
   std::int64_t most_frames = kMostFrames;  ///< longer results are rejected before a frame is read
   bool explain = false;                    ///< fill Selection::explained
   NonManualOptions non_manuals;
-  bool strict = false;  ///< what lint_channels finds is an error
+  bool strict = false;  ///< what lint_channels finds, and what `inflect` does, is an error
   SpaceOptions space;
 };
 

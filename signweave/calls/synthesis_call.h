@@ -148,9 +148,8 @@ void fields(Visit& visit, SignCall& call) {
               .one_of = {"fr", "en", "de", "nl"}},
         call.language);
   visit(Field{.name = "role",
-              .help = "how a gloss refers to loci, such as INVITER=backward: forward (from its subject to its object), "
+              .help = "GLOSS=ROLE: how a gloss refers to loci: forward (from its subject to its object), "
                       "backward, aim (it points), both (each hand has one) or none; otherwise it is guessed",
-              .words = "GLOSS=ROLE",
               .several_words = true},
         call.role);
   visit(Field{.name = "non_manuals",

@@ -457,6 +457,28 @@ export interface components {
       /** @description the one after the last */
       readonly end: number
     }
+    readonly ReportChange: {
+      /** @description as in an utterance: to @left */
+      readonly asked: string
+      /**
+       * @description where it comes from: numbers that were asked for, a token that was captured so, what was learned from the tokens of the gloss, or the geometry of one token
+       * @enum {string}
+       */
+      readonly basis: 'asked' | 'captured' | 'learned' | 'geometric'
+      readonly because?: string
+      /** @description the largest displacement of a palm */
+      readonly moved_mm: number
+      /** @description the largest turn of a hand */
+      readonly turned_degrees: number
+      /** @description of what was asked for that is reached, from 0 to 1 */
+      readonly share: number
+      /** @description why not all of it */
+      readonly limit?: string
+      /** @description from where the stroke should end */
+      readonly missed_mm: number
+      /** @description of a pointing sign: from the direction to its locus */
+      readonly aim_degrees: number
+    }
     readonly ReportClip: {
       /** @description the id of a clip of the score */
       readonly clip: number
@@ -476,6 +498,8 @@ export interface components {
       readonly mirrored?: boolean
       /** @description a hand that rests; not if missing */
       readonly at_rest?: boolean
+      /** @description of its strokes in space; missing: as captured */
+      readonly changes?: readonly components['schemas']['ReportChange'][]
     }
     readonly ReportCut: {
       readonly retraction_frames: number
@@ -649,6 +673,62 @@ export interface components {
       readonly inferred: boolean
       readonly phases: readonly components['schemas']['ScorePhase'][]
     }
+    readonly ScorePathPoint: {
+      /** @description metres */
+      readonly shift: readonly number[]
+      /** @description axis times angle, radians */
+      readonly turn: readonly number[]
+      /** @description of the elbow, radians */
+      readonly swivel: number
+    }
+    readonly ScoreArmChange: {
+      /** @enum {string} */
+      readonly hand: 'left' | 'right'
+      /** @description of the palm's place: three columns */
+      readonly linear: readonly (readonly number[])[]
+      /** @description metres, in the axes of signer-centred space */
+      readonly from: readonly number[]
+      readonly to: readonly number[]
+      /** @description of the hand: a unit quaternion, x y z w */
+      readonly turn: readonly number[]
+      /** @description of the arm about the shoulder, likewise */
+      readonly carry: readonly number[]
+      /** @description of the elbow, radians */
+      readonly swivel: number
+      /** @description displacements at equal steps of the stroke */
+      readonly path: readonly components['schemas']['ScorePathPoint'][]
+    }
+    readonly ScoreChange: {
+      /** @description as in an utterance: to @left */
+      readonly asked: string
+      /**
+       * @description where it comes from: numbers that were asked for, a token that was captured so, what was learned from the tokens of the gloss, or the geometry of one token
+       * @enum {string}
+       */
+      readonly basis: 'asked' | 'captured' | 'learned' | 'geometric'
+      readonly because?: string
+      /** @description the largest displacement of a palm */
+      readonly moved_mm: number
+      /** @description the largest turn of a hand */
+      readonly turned_degrees: number
+      /** @description of what was asked for that is reached, from 0 to 1 */
+      readonly share: number
+      /** @description why not all of it */
+      readonly limit?: string
+      /** @description from where the stroke should end */
+      readonly missed_mm: number
+      /** @description of a pointing sign: from the direction to its locus */
+      readonly aim_degrees: number
+      readonly arms: readonly components['schemas']['ScoreArmChange'][]
+      /** @description both hands keep to each other */
+      readonly together: boolean
+      /** @description radians, to the signer's left */
+      readonly trunk_yaw: number
+      /** @description recording frames over which the change begins */
+      readonly before: number
+      /** @description recording frames over which it ends */
+      readonly after: number
+    }
     readonly ScoreClip: {
       readonly id: number
       /** @description the first place of the utterance that it is of, from 0 */
@@ -670,6 +750,8 @@ export interface components {
       readonly mirrored?: boolean
       /** @description a hand that rests; not if missing */
       readonly at_rest?: boolean
+      /** @description of its core in space; missing: as captured */
+      readonly changes?: readonly components['schemas']['ScoreChange'][]
     }
     readonly ScoreJunction: {
       readonly number: number
@@ -808,6 +890,37 @@ export interface components {
       readonly places: number
       readonly signs: readonly components['schemas']['UtteranceSign'][]
     }
+    /** @description where a sign goes, and how its strokes are changed; what is missing is as captured */
+    readonly UtteranceSpace: {
+      /** @description the locus at which it begins, such as left, a, 30/10 or 0.3,0.1,0.8 */
+      readonly from?: string
+      /** @description the locus at which it ends */
+      readonly to?: string
+      /** @description the locus at which it points or is made */
+      readonly at?: string
+      /** @description the loci along which the hand goes */
+      readonly along?: readonly string[]
+      /** @description the locus that the hand passes */
+      readonly past?: string
+      /** @description the hand keeps its orientation on its path */
+      readonly unturned?: boolean
+      /** @description to the left, up, forward */
+      readonly move_cm?: readonly number[]
+      /** @description about the axes left, up, forward */
+      readonly turn_degrees?: readonly number[]
+      /** @description factors along the axes left, up, forward */
+      readonly scale?: readonly number[]
+      /** @description a factor of the whole movement */
+      readonly size?: number
+      /** @description a factor of the speed of its strokes */
+      readonly speed?: number
+      /** @description the times that a stroke is signed */
+      readonly repetitions?: number
+      /** @description repetitions shrink and go outward: a plural */
+      readonly outward?: boolean
+      /** @description left and right are exchanged */
+      readonly mirrored?: boolean
+    }
     readonly UtterancePlace: {
       readonly gloss?: string
       /** @description missing: any */
@@ -828,6 +941,8 @@ export interface components {
       readonly dominant?: 'left' | 'right'
       /** @description missing: none */
       readonly parts?: readonly components['schemas']['UtterancePart'][]
+      /** @description missing: as captured */
+      readonly space?: components['schemas']['UtteranceSpace']
       readonly begin: number
       readonly end: number
     }
@@ -844,7 +959,7 @@ export interface components {
     readonly UtteranceNonManual: {
       /** @enum {string} */
       readonly kind: 'expression' | 'mouthing' | 'gaze'
-      /** @description the expression, the text to be mouthed, or the direction */
+      /** @description the expression, the text to be mouthed, or the direction or locus */
       readonly what: string
       /** @description the place, from 0 */
       readonly first: number
@@ -854,6 +969,14 @@ export interface components {
       readonly begin_ms: number
       /** @description added to its usual end */
       readonly end_ms: number
+    }
+    /** @description a locus that is set up at a place */
+    readonly UtteranceLocus: {
+      readonly name: string
+      /** @description the locus that it is, such as left or 30/10 */
+      readonly is: string
+      /** @description the place from which on it is there, from 0 */
+      readonly from: number
     }
     readonly UtteranceFault: {
       /** @enum {string} */
@@ -878,6 +1001,9 @@ export interface components {
         | 'nothing_to_hold'
         | 'no_such_place'
         | 'long_mouthing'
+        | 'bad_locus'
+        | 'unknown_locus'
+        | 'repeated_option'
       readonly message: string
       readonly line: number
       readonly column: number
@@ -898,6 +1024,8 @@ export interface components {
       readonly holds?: readonly components['schemas']['UtteranceHold'][]
       /** @description missing: none */
       readonly non_manuals?: readonly components['schemas']['UtteranceNonManual'][]
+      /** @description missing: none */
+      readonly loci?: readonly components['schemas']['UtteranceLocus'][]
       /** @description text that is read as the same utterance; missing with faults */
       readonly canonical?: string
       /** @description the first 20 */
@@ -1242,6 +1370,7 @@ export type Span = components['schemas']['Span']
 export type ReportPhase = components['schemas']['ReportPhase']
 export type ReportSign = components['schemas']['ReportSign']
 export type Frames = components['schemas']['Frames']
+export type ReportChange = components['schemas']['ReportChange']
 export type ReportClip = components['schemas']['ReportClip']
 export type ReportCut = components['schemas']['ReportCut']
 export type ChosenJunction = components['schemas']['ChosenJunction']
@@ -1259,6 +1388,9 @@ export type ScoreStanding = components['schemas']['ScoreStanding']
 export type ScoreClock = components['schemas']['ScoreClock']
 export type ScorePhase = components['schemas']['ScorePhase']
 export type ScoreSign = components['schemas']['ScoreSign']
+export type ScorePathPoint = components['schemas']['ScorePathPoint']
+export type ScoreArmChange = components['schemas']['ScoreArmChange']
+export type ScoreChange = components['schemas']['ScoreChange']
 export type ScoreClip = components['schemas']['ScoreClip']
 export type ScoreJunction = components['schemas']['ScoreJunction']
 export type ScoreHandPlace = components['schemas']['ScoreHandPlace']
@@ -1275,9 +1407,11 @@ export type Score = components['schemas']['Score']
 export type UtteranceSync = components['schemas']['UtteranceSync']
 export type UtteranceSign = components['schemas']['UtteranceSign']
 export type UtterancePart = components['schemas']['UtterancePart']
+export type UtteranceSpace = components['schemas']['UtteranceSpace']
 export type UtterancePlace = components['schemas']['UtterancePlace']
 export type UtteranceHold = components['schemas']['UtteranceHold']
 export type UtteranceNonManual = components['schemas']['UtteranceNonManual']
+export type UtteranceLocus = components['schemas']['UtteranceLocus']
 export type UtteranceFault = components['schemas']['UtteranceFault']
 export type UtteranceText = components['schemas']['UtteranceText']
 export type Removed = components['schemas']['Removed']

@@ -89,6 +89,7 @@ TEST(SpaceTest, OnlyTheSignThatIsChangedLosesItsFrames) {
 TEST(SpaceTest, AScoreHoldsAllThatMakesTheFrames) {
   const Synthesized made = signed_as("BONJOUR{at @left} DEMAIN{big; slow} MATIN{along @right @front; unturned}");
   const std::string text = json_of(made.result.score);
+  EXPECT_EQ(version_of(made.result.score), 3);
   const Score again = score_from_json(text, "score.json");
   EXPECT_EQ(again, made.result.score);
   EXPECT_TRUE(same_bits(synthesize(corpus(), again).result.motion, made.result.motion));

@@ -172,7 +172,7 @@ std::string fault_of(const std::string& text, const std::string& instead, bool a
 TEST(ScoreOfClips, ErrorsSayWhereAndWhat) {
   EXPECT_EQ(fault_of("\"id\": 1", "\"id\": 1"), "no fault");
   EXPECT_THAT(fault_of("{", "["), HasSubstr("my.json:"));
-  EXPECT_THAT(fault_of("\"signweave_score\": 1", "\"signweave_score\": 3"), HasSubstr("a score of version 3"));
+  EXPECT_THAT(fault_of("\"signweave_score\": 1", "\"signweave_score\": 4"), HasSubstr("a score of version 4"));
   EXPECT_THAT(fault_of("\"signweave_score\"", "\"other\""), HasSubstr("my.json: the whole: it must be a score"));
   EXPECT_THAT(fault_of("\"id\": 1", "\"id\": 2"), HasSubstr("clip 1 has the id 2"));
   EXPECT_THAT(fault_of("\"id\": 1", "\"id\": -1"), HasSubstr("clips[1].id: it must be a whole number of 0 or more"));
@@ -246,6 +246,31 @@ TEST(ScoreOfClips, ClipsBeyondTheirMotionAreRejected) {
     if (Transition* const made = std::get_if<Transition>(&item.what)) made->cut.retraction_frames = 41;
   }
   EXPECT_THROW(rendered(score, clips), Error);
+}
+
+TEST(ScoreJson, ChangesWithNumbersThatAreNoneAreRefused) {
+  Score score = concatenate(clips_to_join(), {}).score;
+  ClipChange change{.asked = "big"};
+  change.stroke.arms[1] = ArmChange{.path = {{}, {.shift = {0.1f, 0, 0}, .turn = {0, 0.2f, 0}, .swivel = 0.3f}}};
+  score.clips[1].changes = {change};
+  EXPECT_EQ(score_from_json(json_of(score), "score.json"), score);
+  const auto why = [&](const auto& spoil) -> std::string {
+    Score wrong = score;
+    spoil(wrong.clips[1].changes[0]);
+    try {
+      check(wrong, "score.json");
+    } catch (const Error& error) {
+      return error.what();
+    }
+    return "none";
+  };
+  const std::string numbers = "a stroke is changed by numbers that are no map, turn or path; sign its utterance again";
+  EXPECT_EQ(why([](ClipChange& one) { one.stroke.arms[1]->to.x() = std::numeric_limits<float>::infinity(); }), numbers);
+  EXPECT_EQ(why([](ClipChange& one) { one.stroke.arms[1]->turn.coeffs().setZero(); }), numbers);
+  EXPECT_EQ(why([](ClipChange& one) { one.stroke.arms[1]->path.resize(65); }), numbers);
+  EXPECT_EQ(why([](ClipChange& one) { one.stroke.trunk_yaw = 4; }), numbers);
+  EXPECT_EQ(why([](ClipChange& one) { one.stroke.together = true; }), numbers);
+  EXPECT_THAT(why([](ClipChange& one) { one.share = 2; }), HasSubstr("a change of clip 1 has no finite sizes"));
 }
 
 }  // namespace

@@ -336,6 +336,8 @@ Item item_from(const Value& value) {
 }  // namespace
 
 int version_of(const Score& score) noexcept {
+  const auto is_changed = [](const Clip& clip) { return !clip.changes.empty(); };
+  if (std::ranges::any_of(score.clips, is_changed)) return 3;
   const bool has_parts = score.lanes.size() > kChannels.size() || body_clips(score) != score.clips.size();
   const bool has_holds = std::ranges::any_of(score.lanes, [](const Lane& lane) {
     return std::ranges::any_of(lane.items, [](const Item& item) { return std::holds_alternative<Hold>(item.what); });

@@ -79,7 +79,7 @@ class StepWindow {
       }
     }
     for (const ChannelStart& start : before_.starts) {
-      key += fmt::format("|{}", name_of(start.channel));
+      key += fmt::format("|{} {}", name_of(start.channel), start.stays);
       for (const ChannelLink& link : start.links) {
         key += fmt::format(" {} {}", link.clip, link.held_until ? static_cast<std::int64_t>(*link.held_until) : -1);
         if (const auto& place = before_.places[link.clip]) {
@@ -90,7 +90,7 @@ class StepWindow {
     }
     for (std::size_t i = before_.known_parts; i < parts_.clips.size(); ++i) {
       const ChannelClip& part = parts_.clips[i];
-      key += fmt::format("|{} {} {} {}", name_of(part.channel), part.first, part.last, part.fill);
+      key += fmt::format("|{} {} {} {} {}", name_of(part.channel), part.first, part.last, part.fill, part.lower);
       for (const ClipSync& sync : part.sync) {
         key += fmt::format(" {} {} {}", static_cast<int>(sync.anchor), sync.with, sync.offset.count());
       }
@@ -191,7 +191,8 @@ class StepWindow {
         const std::deque<LiveLink>& theirs = chain.lane(*parent);
         if (std::ranges::equal(lane, theirs, {}, &LiveLink::clip, &LiveLink::clip)) continue;
       }
-      ChannelStart& start = before_.starts.emplace_back(ChannelStart{.channel = channel, .links = {}});
+      const bool stays = std::ranges::find(clips.stay, channel) != clips.stay.end();
+      ChannelStart& start = before_.starts.emplace_back(ChannelStart{.channel = channel, .links = {}, .stays = stays});
       for (std::size_t i = first_at(lane, begin); i < lane.size(); ++i) {
         const std::size_t number = number_of(lane[i].clip, channel);
         if (side_of_arm(channel)) before_.places[number] = lane[i].place;

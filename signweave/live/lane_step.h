@@ -17,12 +17,13 @@ namespace signweave {
 
 /// Clips that a stream signs next, where single channels show others than the body does.
 struct StepClips {
-  std::vector<std::shared_ptr<LiveClip>> body;  ///< not empty
+  std::vector<std::shared_ptr<LiveClip>> body;  ///< empty: held hands are lowered
   /// What channels show instead. Whole-body clips are counted from the last one of the stream, which is clip 0, or from
   /// the first new one if there is none. Their `clip` is not used.
   ChannelParts parts = {};
   std::vector<std::shared_ptr<LiveClip>> of_parts = {};  ///< [clip of the parts]
   bool rests = false;                                    ///< the last one is the rest, which goes on
+  std::vector<Channel> stay = {};                        ///< see ChannelStart::stays
 };
 
 /// Such clips in their places, and the frames that they make.

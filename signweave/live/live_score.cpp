@@ -97,7 +97,8 @@ void LiveScore::end_at_last_sign() {
   if (chain_.is_uniform()) {
     timeline_.append({end(), end() + tail().placed.retraction}, chain_.back());
   } else {
-    timeline_.append({end(), last_sign_.step->end()}, last_sign_.step->made, last_sign_.step->begin);
+    const StepPtr step = lower_hands();
+    timeline_.append({end(), step->end()}, step->made, step->begin);
   }
   state_ = State::ended;
   events_.push_back({.kind = PlayerEvent::Kind::end,

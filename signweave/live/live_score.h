@@ -153,6 +153,7 @@ class LiveScore {
   void sign_next();
   void go_to_rest();
   void go_to_rest_in_channels();
+  StepPtr lower_hands();
   void end_at_last_sign();
 
   // live_score_channels.cpp

@@ -1,7 +1,9 @@
 #include <algorithm>
 #include <utility>
 
+#include "signweave/choose/compose.h"
 #include "signweave/choose/part_choice.h"
+#include "signweave/core/error.h"
 #include "signweave/live/live_score.h"
 
 // Places in which single channels show something else than the body. They are placed together (LaneStep).
@@ -182,6 +184,37 @@ void LiveScore::go_to_rest_in_channels() {
                      .frame = static_cast<std::uint64_t>(end()),
                      .at = end_of_last_sign() + time_of(end() - core_end)});
   timeline_.append({end(), end() + kRestFramesAtOnce}, rest);
+}
+
+/// Lets hands that are held until the last place join the body's last retraction, as a file does. Returns the step that
+/// shows it: the last sign's own if none is held, or none can be lowered.
+LiveScore::StepPtr LiveScore::lower_hands() {
+  const LaneStep& last = *last_sign_.step;
+  const std::size_t last_clip = last.clips.body.size() - (last.had_tail ? 0 : 1);  // as StepClips::parts counts
+  StepClips clips;
+  for (const Side side : kSides) {
+    const Channel hand = side == Side::left ? Channel::left : Channel::right;
+    const Channel fingers = side == Side::left ? Channel::left_fingers : Channel::right_fingers;
+    if (chain_.lane(hand).back().held_until != chain_.back()) continue;
+    std::optional<MotionClip> lowered = lowered_hand(chain_.back()->captured);
+    if (!lowered) continue;
+    auto clip = std::make_shared<LiveClip>();
+    clip->captured = std::move(*lowered);
+    clips.parts.clips.push_back({.channel = hand, .clip = {}, .sync = {}, .lower = true});
+    clips.of_parts.push_back(std::move(clip));
+    if (std::ranges::any_of(last.clips.parts.clips, [&](const ChannelClip& part) {
+          return part.channel == fingers && part.last == last_clip;
+        })) {
+      clips.stay.push_back(fingers);
+    }
+  }
+  if (clips.of_parts.empty()) return last_sign_.step;
+  try {
+    return take_step(clips);
+  } catch (const Error& error) {  // a recording is gone: the hand stays where it is
+    notify(end(), round_.entries.back().last + queue_.forgotten(), error.what());
+    return last_sign_.step;
+  }
 }
 
 /// As finish_sign, among signs that were placed together: ends the timeline with the one that is shown if it ends soon.

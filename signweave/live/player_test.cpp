@@ -177,5 +177,28 @@ TEST(PlayerDuringChanges, ContinuesFromTheShownPoseIfTheRestOfASignIsGone) {
   }
 }
 
+TEST(PlayerDuringChanges, AHeldHandStaysUpIfItsRecordingIsGone) {
+  for (const bool removed : {false, true}) {
+    const Corpus corpus;
+    SharedSigningCache cache(*corpus.database);
+    Player player(cache, {.idle = Idle::end});
+    player.sign(parse_utterance("CINQ{weak hold ..} UN"));
+    player.prepare(1);
+    Taker taker(player);
+    std::vector<std::string> notices;
+    while (player.prepare(1) > 0) {
+      taker.take(player);
+      while (const auto event = player.take_event()) {
+        if (removed && event->gloss == "UN") corpus.database->remove("c");
+        if (event->kind == PlayerEvent::Kind::notice && event->text.find("'c'") != std::string::npos) {
+          notices.push_back(event->text);
+        }
+      }
+    }
+    EXPECT_EQ(notices.size(), removed ? 1u : 0u);
+    EXPECT_TRUE(player.idle());
+  }
+}
+
 }  // namespace
 }  // namespace signweave

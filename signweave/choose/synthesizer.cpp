@@ -225,11 +225,11 @@ Synthesized run(const Snapshot& snapshot, Wanted wanted, std::string_view edited
                          .author = author,
                          .reference = reference},
                         std::move(used));
-  const std::vector<Notice> found = lint_channels(made.result, clips, composed.parts, rig, wanted.utterance);
-  if (options.strict && !found.empty()) {
-    throw Error(ErrorCode::bad_input, fmt::format("{} ({})", found.front().text, found.front().code),
-                {{"strict", "false"}});
-  }
+  for (ChannelClip& part : composed.parts.clips) clips.push_back(std::move(part.clip));
+  const std::vector<Notice> found = lint_channels(
+      {.score = made.result.score, .clips = clips, .body = body, .parts = composed.parts, .motion = made.result.motion},
+      rig);
+  if (options.strict) refuse(found);
   notices.insert(notices.end(), found.begin(), found.end());
   made.result.notices = std::move(notices);
   made.layout_from = clips[reference].recording;

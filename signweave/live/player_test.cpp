@@ -201,10 +201,13 @@ TEST(PlayerDuringChanges, AHeldHandStaysUpIfItsRecordingIsGone) {
 }
 
 TEST(PlayerNotices, SayOnceHowTheStreamIsSigned) {
-  const Corpus corpus;  // without measurable transitions
+  const Corpus corpus;
+  corpus.database->remove("a");
+  corpus.database->remove("b");
+  corpus.database->put(recording_of("d", 4, {"SIX"}));  // now there are no transitions to be measured
   SharedSigningCache cache(*corpus.database);
   Player player(cache, {.idle = Idle::end});
-  player.sign(parse_utterance("UN"));
+  player.sign(parse_utterance("CINQ"));
   player.prepare(64);
   Taker taker(player);
   std::size_t told = 0;
@@ -218,7 +221,7 @@ TEST(PlayerNotices, SayOnceHowTheStreamIsSigned) {
     }
   };
   for (int i = 0; i < 1'000 && told == 0; ++i) take(1);
-  player.append(parse_utterance("DEUX{brows up}"));  // the stream has no tracks for it, which is a notice
+  player.append(parse_utterance("SIX{brows up}"));  // the stream has no tracks for it, which is a notice
   player.prepare(64);
   player.seek(Milliseconds(0));  // before that notice is taken
   EXPECT_EQ(unseen, 0u);

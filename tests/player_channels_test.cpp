@@ -50,8 +50,14 @@ TEST(PlayerChannelsToTheEnd, ShowWhatAFileShows) {
   SynthesisOptions options;
   for (const char* const text :
        {"VANNES#1 [MATIN#1 | weak: PLUIE#1]", "VANNES#1 MATIN#1{weak hold ..+2} PLUIE#1 NANTES#1 RENNES#2",
-        "VANNES#1 MATIN#1{fingers: PLUIE#1} RENNES#1", "VANNES#1 [MATIN#1 PLUIE#1 | left: NANTES#2 RENNES#1] VENT#1",
-        "VANNES#1 , {neg: MATIN#1 RENNES#1}", "VANNES#1{dominant left} MATIN#1{mouth \"pluie\"} RENNES#1"}) {
+        "VANNES#1 MATIN#1{fingers: PLUIE#1} RENNES#1", "VANNES#1 MATIN#1{weak hold ..} PLUIE#1 RENNES#2",
+        "VANNES#1{right hold ..; left hold ..} MATIN#1", "VANNES#1{weak hold ..} [MATIN#1 | dominant: PLUIE#1]",
+        "VANNES#1 MATIN#1{weak hold ..; weak fingers: PLUIE#1} RENNES#1",
+        "[VANNES#1 | weak: VENT#1] [MATIN#1 | weak: hold]",
+        "VANNES#1{weak fingers: PLUIE#1} MATIN#1{weak hold ..} RENNES#1",
+        "VANNES#1 MATIN#1{weak hold ..; weak fingers ..+1: PLUIE#1} RENNES#1",
+        "VANNES#1 [MATIN#1 PLUIE#1 | left: NANTES#2 RENNES#1] VENT#1", "VANNES#1 , {neg: MATIN#1 RENNES#1}",
+        "VANNES#1{dominant left} MATIN#1{mouth \"pluie\"} RENNES#1"}) {
     SCOPED_TRACE(text);
     const Utterance utterance = parse_utterance(text);
     const Synthesized file = synthesize(corpus(), utterance, options);
@@ -80,6 +86,44 @@ TEST(PlayerChannelsToTheEnd, ShowWhatAFileShows) {
     }
     EXPECT_EQ(frame, made.frame_count());
   }
+}
+
+/// The glosses that a channel of what is shown has.
+std::vector<std::string> glosses_of(const Player& player, Channel channel) {
+  const std::optional<ShownScore> live = player.score();
+  const Lane* lane = lane_of(live->score, channel);
+  std::vector<std::string> glosses;
+  for (const LaneLink& link : chain_of(*lane)) {
+    const Clip& clip = live->score.clips[link.clip];
+    glosses.push_back(clip.signs.empty() ? "-" : clip.signs.front().gloss);
+  }
+  return glosses;
+}
+
+TEST(PlayerChannelsToTheEnd, LowersAHeldHandAgainAfterMore) {
+  for (const std::size_t shown : {20u, 80u, 1'000u}) {  // in the first sign, in the last one, at the end
+    ComparedPlayer stream({.idle = Idle::end});
+    stream.player().sign(parse_utterance("VANNES#1{weak hold ..; weak fingers: VENT#1} MATIN#1"));
+    for (std::size_t taken = 0; taken < shown; taken += 20) stream.take(20);
+    stream.player().seek(Milliseconds(300));
+    stream.take(40);
+    EXPECT_THAT(glosses_of(stream.player(), Channel::left), testing::Contains("VANNES"));
+    UtteranceWords words;
+    words.follows = true;
+    stream.player().append(parse_utterance("RENNES#1", words));
+    show_all(stream);
+    EXPECT_THAT(glosses_of(stream.player(), Channel::left), testing::ElementsAre("VANNES", "RENNES"));
+  }
+}
+
+TEST(PlayerChannelsToTheEnd, DropAPartWithItsPlace) {
+  ComparedPlayer stream({.idle = Idle::end});
+  stream.player().sign(parse_utterance("VANNES#1 [MATIN#1 | weak: PLUIE#1]"));
+  while (stream.player().frame() < 90) stream.take(90 - stream.player().frame());
+  stream.player().prepare(64);
+  stream.player().sign(parse_utterance("RENNES#1"));
+  show_all(stream);
+  EXPECT_THAT(glosses_of(stream.player(), Channel::left), testing::ElementsAre("VANNES", "RENNES"));
 }
 
 TEST_P(PlayerChannels, ShowFaceGazeAndHead) {

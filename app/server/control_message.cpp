@@ -120,6 +120,10 @@ constexpr Field kFields[] = {
      [](ControlMessage& m, const std::string& n, const nlohmann::json& v) {
        m.open.player.synthesis.handedness = one_of<2>(n, v, {"left", "right"}) == 0 ? Side::left : Side::right;
      }},
+    {Control::open, "strict", false,
+     [](ControlMessage& m, const std::string& n, const nlohmann::json& v) {
+       m.open.player.synthesis.strict = truth_of(n, v);
+     }},
     {Control::open, "character", false,
      [](ControlMessage& m, const std::string& n, const nlohmann::json& v) { m.open.character = text_of(n, v); }},
     {Control::open, "transition", false,

@@ -12,7 +12,7 @@ TEST(ControlMessage, OpenTakesEveryOption) {
   const ControlMessage message = parse_control(
       R"({"type": "open", "rate": "30000/1001", "batch": 60, "pace": "fast", "idle": "end", "look_ahead": 5,
           "loop": true, "recording": "meteo", "transition": "overlap", "duration": 400, "tempo": 1.5,
-          "align": "ground", "id": 7})");
+          "align": "ground", "strict": true, "id": 7})");
   EXPECT_EQ(message.control, Control::open);
   EXPECT_EQ(message.id, "7");
   EXPECT_EQ(message.open.batch, 60u);
@@ -26,6 +26,7 @@ TEST(ControlMessage, OpenTakesEveryOption) {
   EXPECT_EQ(message.open.player.synthesis.tempo, 1.5);
   EXPECT_EQ(message.open.player.synthesis.rate, (FrameRate{30'000, 1'001}));
   EXPECT_EQ(message.open.player.synthesis.alignment, Alignment::ground);
+  EXPECT_TRUE(message.open.player.synthesis.strict);
 }
 
 TEST(ControlMessage, EveryOtherTypeIsRead) {
@@ -70,6 +71,7 @@ TEST(ControlMessage, ErrorsContainTheId) {
       {R"({"type":"open","batch":601})", "1 to 600"},
       {R"({"type":"open","batch":1.5})", "whole number"},
       {R"({"type":"open","batch":18446744073709551615})", "1 to 600"},
+      {R"({"type":"open","strict":"yes"})", "true or false"},
       {R"({"type":"open","pace":"slow"})", "one of live, fast"},
       {R"({"type":"open","look_ahead":17})", "1 to 16"},
       {R"({"type":"open","rate":0})", "1 to 2000 frames per second"},

@@ -73,6 +73,7 @@ std::string said(const Json& example) {
                  : type == "seek" ? PlayerEvent::Kind::seek
                                   : PlayerEvent::Kind::notice;
     event.text = example.value("text", "");
+    event.code = example.value("code", "");
   }
   return event_text(event);
 }

@@ -140,6 +140,10 @@ std::string event_text(const PlayerEvent& event) {
     line += R"(,"text":)";
     add_quoted(line, event.text);
   }
+  if (!event.code.empty()) {
+    line += R"(,"code":)";
+    add_quoted(line, event.code);
+  }
   return line += '}';
 }
 

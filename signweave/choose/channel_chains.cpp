@@ -73,7 +73,10 @@ std::vector<ChannelChain> channel_chains(const ChannelParts& parts, const std::v
         const auto theirs = std::ranges::find(chain.links, link.clip, &ChannelLink::clip);
         if (theirs != chain.links.end() && theirs->held_until) link.held_until = theirs->held_until;
       }
-      std::erase_if(chain.links, [&](const ChannelLink& link) { return link.first <= first.back().last; });
+      const auto is_lowered = [&](std::size_t clip) { return clip >= body && parts.clips[clip - body].lower; };
+      std::erase_if(chain.links, [&](const ChannelLink& link) {
+        return link.first <= first.back().last && (start->stays || !is_lowered(link.clip));
+      });
       chain.links.insert(chain.links.begin(), first.begin(), first.end());
     }
     ChainEditor editor(chain, clips);

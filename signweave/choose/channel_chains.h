@@ -26,6 +26,7 @@ struct ChannelChain {
 struct ChannelStart {
   Channel channel = Channel::left;
   std::vector<ChannelLink> links;  ///< `first` and `last` are the last of those whole-body clips
+  bool stays = false;              ///< fingers that keep what they show when their held hand is lowered
 };
 
 /// What each channel shows one after another: the channels of kChannels, then those of kPartChannels that have parts.

@@ -326,18 +326,11 @@ class Composer {
 ChannelParts with_lowered(const std::vector<MotionClip>& clips, ChannelParts parts) {
   const std::size_t last = clips.size() - 1;
   for (const ChannelHold& held : parts.holds) {
-    MotionClip lowered = clips[last];
-    const auto frames = std::int64_t{std::llround(kLowered.count() * lowered.source->rate().hertz())};
-    lowered.whole.begin = lowered.core.end;
-    if (held.until != last || lowered.whole.size() <= frames) continue;
-    lowered.core = {lowered.whole.end - std::max<std::int64_t>(frames, 1), lowered.whole.end};
-    lowered.at_rest = true;
-    lowered.signs.clear();
-    lowered.sign_places.clear();
-    lowered.junction = {};
-    lowered.continues = false;
+    if (held.until != last) continue;
+    std::optional<MotionClip> clip = lowered_hand(clips[last]);
+    if (!clip) continue;
     parts.clips.push_back(
-        {.channel = held.channel, .clip = std::move(lowered), .first = last, .last = last, .sync = {}, .lower = true});
+        {.channel = held.channel, .clip = std::move(*clip), .first = last, .last = last, .sync = {}, .lower = true});
   }
   return parts;
 }
@@ -365,6 +358,20 @@ void set_places(Score& score, const std::vector<MotionClip>& clips, const std::v
 }
 
 }  // namespace
+
+std::optional<MotionClip> lowered_hand(const MotionClip& last) {
+  MotionClip lowered = last;
+  const auto frames = std::int64_t{std::llround(kLowered.count() * lowered.source->rate().hertz())};
+  lowered.whole.begin = lowered.core.end;
+  if (lowered.whole.size() <= frames) return std::nullopt;
+  lowered.core = {lowered.whole.end - std::max<std::int64_t>(frames, 1), lowered.whole.end};
+  lowered.at_rest = true;
+  lowered.signs.clear();
+  lowered.sign_places.clear();
+  lowered.junction = {};
+  lowered.continues = false;
+  return lowered;
+}
 
 Synthesis compose(const std::vector<MotionClip>& clips, const ChannelParts& wanted, const ConcatenateOptions& options,
                   Synthesis used) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "signweave/choose/channel_chains.h"
@@ -21,6 +22,10 @@ namespace signweave {
 /// other; the message names those that do.
 Synthesis compose(const std::vector<MotionClip>& clips, const ChannelParts& parts, const ConcatenateOptions& options,
                   Synthesis used = {});
+
+/// What a hand shows after a pose that it holds until the end of the last whole-body clip: the end of that clip's
+/// captured retraction (ChannelClip::lower). None if too little of one was captured.
+std::optional<MotionClip> lowered_hand(const MotionClip& last);
 
 /// Clips that are composed after others, which have their place already: what a stream signs next.
 struct Continuation {

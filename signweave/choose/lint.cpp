@@ -14,6 +14,7 @@
 #include "signweave/features/smoothing.h"
 #include "signweave/features/two_handed.h"
 #include "signweave/features/unmarked_handshape.h"
+#include "signweave/notation/utterance.h"
 #include "signweave/render/hand_meter.h"
 #include "signweave/render/place_correction.h"
 #include "signweave/render/plan.h"
@@ -78,27 +79,33 @@ float openness_apart(const Motion& motion, const SignerModel& signer) {
 
 class ChannelLint {
  public:
-  ChannelLint(const Synthesis& made, const std::vector<MotionClip>& clips, const ChannelParts& parts,
-              const SignerRig& rig)
-      : made_(made), clips_(clips), parts_(parts), rig_(rig), meter_(made.motion.skeleton(), rig.signer) {}
+  ChannelLint(const ComposedChannels& made, const SignerRig& rig)
+      : made_(made), rig_(rig), meter_(made.motion.skeleton(), rig.signer) {}
 
   std::vector<Notice> take() { return std::move(notices_); }
 
+  bool is_fixed(std::size_t clip) const noexcept {
+    return made_.before != nullptr && clip < made_.before->fixed.size() && made_.before->fixed[clip];
+  }
+
   /// The strokes of a part's clip against those of the whole body at the same time.
   void examine(std::size_t part) {
-    const ChannelClip& own = parts_.clips[part];
-    const std::optional<Side> side = side_of_arm(own.channel);
+    const std::size_t own = made_.body + part;
+    const std::optional<Side> side = side_of_arm(made_.parts.clips[part].channel);
     if (!side) return;
-    const FrameRange at = made_.score.clips[clips_.size() + part].at;
-    for (std::size_t i = 0; i < clips_.size(); ++i) {
+    const FrameRange at = made_.score.clips[own].at;
+    const std::int64_t end = made_.first + made_.motion.frame_count();
+    for (std::size_t i = 0; i < made_.body; ++i) {
+      if (is_fixed(own) && is_fixed(i)) continue;
       const FrameRange theirs = made_.score.clips[i].at;
-      const FrameRange common{std::max(at.begin, theirs.begin), std::min(at.end, theirs.end)};
+      const FrameRange common{std::max({at.begin, theirs.begin, made_.first}), std::min({at.end, theirs.end, end})};
       const auto least = static_cast<std::int64_t>(kLeastCommon.count() * made_.score.rate.hertz());
       if (common.end - common.begin < least) continue;
       if (!has_hands()) continue;
-      const BothHands both = both_hands(meter_, *rig_.signer.body, made_.motion, common);
-      shapes(own, clips_[i], *side, common, both.movement);
-      collision(own.clip, clips_[i], *side, both.meeting);
+      const FrameRange frames{common.begin - made_.first, common.end - made_.first};
+      const BothHands both = both_hands(meter_, *rig_.signer.body, made_.motion, frames);
+      shapes(made_.clips[own], made_.clips[i], *side, frames, both.movement);
+      collision(made_.clips[own], made_.clips[i], *side, both.meeting);
     }
   }
 
@@ -107,28 +114,38 @@ class ChannelLint {
     const std::optional<Side> side = side_of_arm(channel);
     if (!side || !has_hands()) return;
     for (std::size_t i = first; i <= last; ++i) {
-      const bool touch = captured(clips_[i]).movement.contact;
-      if (!touch && !alternates(clips_[i])) continue;
+      const bool touch = captured(made_.clips[i]).movement.contact;
+      if (!touch && !alternates(made_.clips[i])) continue;
       add("weak_drop", fmt::format("the {} hand does something else in {}, in which both hands {}", name_of(channel),
-                                   quoted_name(clips_[i]), touch ? "touch" : "alternate"));
+                                   quoted_name(made_.clips[i]), touch ? "touch" : "alternate"));
     }
   }
 
-  void long_holds(const Utterance* utterance) {
+  void long_holds() {
     for (const Lane& lane : made_.score.lanes) {
       if (lane.channel == Channel::body || lane.channel == Channel::tracks) continue;
-      for (const Item& item : lane.items) {
-        const auto* const held = std::get_if<Hold>(&item.what);
-        if (held == nullptr || item.at.begin == 0 || item.at.end == made_.score.frames) continue;
-        if (made_.score.clips[held->clip].at_rest) continue;
-        const double seconds = static_cast<double>(item.at.size()) / made_.score.rate.hertz();
+      for (std::size_t i = 0; i < lane.items.size(); ++i) {
+        const auto* const held = std::get_if<Hold>(&lane.items[i].what);
+        if (held == nullptr || lane.items[i].at.begin == 0 || made_.score.clips[held->clip].at_rest) continue;
+        if (is_held_with_parent(lane.channel, lane.items[i])) continue;
+        FrameRange at = lane.items[i].at;
+        if (at.end == made_.score.frames) {
+          if (!is_held_to_the_end(lane.channel)) continue;
+          at.end = made_.score.clips[made_.body - 1].at.end;
+        } else if (is_fixed(clip_after(lane, i))) {
+          continue;
+        }
+        const LongHold why = why_too_long(at);
+        if (why == LongHold::no) continue;
+        const std::int64_t known = std::min(at.end, known_end(lane.channel, held->clip));
+        if (why_too_long({at.begin, known}) != LongHold::no) continue;
         const Clip& clip = made_.score.clips[held->clip];
         const std::string what = clip.signs.empty() ? "a piece" : printable(clip.signs.back().gloss);
-        if (seconds > kLongHold.count()) {
+        if (why == LongHold::seconds) {
           add("long_hold", fmt::format("'{}' is held for {:.1f} s in the lane '{}'; holds of signers are rarely longer "
                                        "than {:.0f} s",
-                                       what, seconds, name_of(lane.channel), kLongHold.count()));
-        } else if (utterance != nullptr && crosses_stop(item.at, *utterance)) {
+                                       what, seconds_of(at), name_of(lane.channel), kLongHold.count()));
+        } else {
           add("long_hold",
               fmt::format("'{}' is held across a full stop in the lane '{}'", what, name_of(lane.channel)));
         }
@@ -137,6 +154,12 @@ class ChannelLint {
   }
 
  private:
+  enum class LongHold { no, seconds, stop };
+
+  double seconds_of(FrameRange frames) const noexcept {
+    return static_cast<double>(std::max<std::int64_t>(frames.size(), 0)) / made_.score.rate.hertz();
+  }
+
   void add(std::string code, std::string text) {
     Notice notice{"channels", std::move(text), {}, std::move(code)};
     if (std::ranges::find(notices_, notice) == notices_.end()) notices_.push_back(std::move(notice));
@@ -144,13 +167,13 @@ class ChannelLint {
 
   bool has_hands() const noexcept { return meter_.has(Side::left) && meter_.has(Side::right); }
 
-  void shapes(const ChannelClip& own, const MotionClip& body, Side side, FrameRange common, const TwoHanded& movement) {
+  void shapes(const MotionClip& own, const MotionClip& body, Side side, FrameRange frames, const TwoHanded& movement) {
     if (!meter_.has_fingers(Side::left) || !meter_.has_fingers(Side::right)) return;
     const auto slot = static_cast<std::size_t>(side);
-    const std::array<Handshape, 2> shapes = handshapes(made_.motion, rig_.signer, common.begin + common.size() / 2);
+    const std::array<Handshape, 2> shapes = handshapes(made_.motion, rig_.signer, frames.begin + frames.size() / 2);
     if (!handshapes_differ(shapes[0], shapes[1])) return;
     if (both_move(movement)) {
-      add("symmetry", fmt::format("{} and {} move at the same time with different handshapes", quoted_name(own.clip),
+      add("symmetry", fmt::format("{} and {} move at the same time with different handshapes", quoted_name(own),
                                   quoted_name(body)));
       return;
     }
@@ -158,12 +181,13 @@ class ChannelLint {
     const float other_speed = movement.palms[1 - slot].mean_speed;
     const bool own_is_held = own_speed < kStillPalm && other_speed > kMovingPalm;
     if (own_is_held && !is_unmarked(shapes[slot])) {
-      add("dominance", fmt::format("the held hand of {} beside {} has a marked handshape of its own",
-                                   quoted_name(own.clip), quoted_name(body)));
+      add("dominance", fmt::format("the held hand of {} beside {} has a marked handshape of its own", quoted_name(own),
+                                   quoted_name(body)));
     }
   }
 
   void collision(const MotionClip& own, const MotionClip& body, Side side, const HandsMeeting& made) {
+    if (!why_hands_collide(made, {})) return;  // not even if their captures kept them apart
     const std::array<HandsMeeting, 2> in_captures = {captured(own).meeting, captured(body).meeting};
     if (const std::optional<std::string> why = why_hands_collide(made, in_captures)) {
       add("collision", fmt::format("{} of the {} hand and {}: {}", quoted_name(own),
@@ -193,18 +217,50 @@ class ChannelLint {
     return class_of(movement, *rig_.signer.body) == Hands::alternating;
   }
 
-  bool crosses_stop(FrameRange frames, const Utterance& utterance) const {
-    for (std::size_t i = 1; i < clips_.size(); ++i) {
-      const Clip& clip = made_.score.clips[i];
-      const bool stops = clip.place < utterance.places.size() && utterance.places[clip.place].pause_before >= kFullStop;
-      if (stops && frames.begin < clip.at.begin && clip.at.begin <= frames.end) return true;
+  /// The clip that a lane shows after an item.
+  static std::size_t clip_after(const Lane& lane, std::size_t item) {
+    while (++item < lane.items.size()) {
+      if (const auto* const use = std::get_if<ClipUse>(&lane.items[item].what)) return use->clip;
     }
-    return false;
+    return static_cast<std::size_t>(-1);
+  }
+  /// True if the part that contains a channel holds the same: fingers with their hand.
+  bool is_held_with_parent(Channel channel, const Item& held) const {
+    const std::optional<Channel> parent = parent_of(channel);
+    return parent && std::ranges::any_of(lane_of(made_.score, *parent)->items, [&](const Item& item) {
+             const auto* const theirs = std::get_if<Hold>(&item.what);
+             return theirs != nullptr && theirs->clip == std::get<Hold>(held.what).clip &&
+                    item.at.begin == held.at.begin;
+           });
+  }
+  bool is_held_to_the_end(Channel channel) const {
+    return std::ranges::any_of(made_.parts.holds, [&](const ChannelHold& held) {
+      return held.until + 1 == made_.body && (held.channel == channel || held.channel == parent_of(channel));
+    });
+  }
+  /// Until when a pose was known to be held when its clip was examined.
+  std::int64_t known_end(Channel channel, ClipId clip) const {
+    if (made_.before == nullptr) return 0;
+    for (const ChannelStart& start : made_.before->starts) {
+      if (start.channel != channel && start.channel != parent_of(channel)) continue;
+      for (const ChannelLink& link : start.links) {
+        if (link.clip == clip && link.held_until) return made_.score.clips[*link.held_until].at.end;
+      }
+    }
+    return 0;
+  }
+  /// Why a pose should not be held for these frames.
+  LongHold why_too_long(FrameRange frames) const {
+    if (seconds_of(frames) > kLongHold.count()) return LongHold::seconds;
+    for (std::size_t i = 0; i < made_.body; ++i) {
+      const std::int64_t begin = made_.score.clips[i].at.begin;
+      const bool stops = made_.clips[i].pause_before >= kFullStop;
+      if (stops && frames.begin < begin && begin <= frames.end) return LongHold::stop;
+    }
+    return LongHold::no;
   }
 
-  const Synthesis& made_;
-  const std::vector<MotionClip>& clips_;
-  const ChannelParts& parts_;
+  const ComposedChannels& made_;
   const SignerRig& rig_;
   HandMeter meter_;
   std::map<const MotionClip*, BothHands> captured_;
@@ -213,20 +269,27 @@ class ChannelLint {
 
 }  // namespace
 
-std::vector<Notice> lint_channels(const Synthesis& made, const std::vector<MotionClip>& clips,
-                                  const ChannelParts& parts, const SignerRig& rig, const Utterance* utterance) {
-  if (parts.empty() || !rig.signer.body) return {};
-  ChannelLint lint(made, clips, parts, rig);
-  for (std::size_t i = 0; i < parts.clips.size(); ++i) {
-    const ChannelClip& part = parts.clips[i];
+std::vector<Notice> lint_channels(const ComposedChannels& made, const SignerRig& rig) {
+  const bool is_whole_body = made.parts.empty() && (made.before == nullptr || made.before->starts.empty());
+  if (is_whole_body || !rig.signer.body) return {};
+  ChannelLint lint(made, rig);
+  for (std::size_t i = 0; i < made.parts.clips.size(); ++i) {
+    const ChannelClip& part = made.parts.clips[i];
+    const std::size_t clip = made.body + i;
     // Signs of a tier of its own are what the signer did.
-    if (part.clip.continues || (i + 1 < parts.clips.size() && parts.clips[i + 1].clip.continues)) continue;
-    if (!part.clip.at_rest) lint.examine(i);
-    lint.dropped(part.channel, part.first, part.last);
+    if (made.clips[clip].continues || (clip + 1 < made.clips.size() && made.clips[clip + 1].continues)) continue;
+    if (!made.clips[clip].at_rest) lint.examine(i);
+    if (!lint.is_fixed(clip)) lint.dropped(part.channel, part.first, part.last);
   }
-  for (const ChannelHold& held : parts.holds) lint.dropped(held.channel, held.from + 1, held.until);
-  lint.long_holds(utterance);
+  for (const ChannelHold& held : made.parts.holds) lint.dropped(held.channel, held.from + 1, held.until);
+  lint.long_holds();
   return lint.take();
+}
+
+void refuse(const std::vector<Notice>& found) {
+  if (found.empty()) return;
+  throw Error(ErrorCode::bad_input, fmt::format("{} ({})", found.front().text, found.front().code),
+              {{"strict", "false"}});
 }
 
 }  // namespace signweave

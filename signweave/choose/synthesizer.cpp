@@ -165,13 +165,6 @@ std::vector<ClipToInflect> clips_to_inflect(std::vector<MotionClip>& clips, cons
   return found;
 }
 
-/// Throws the first of some notices about what is signed, if that is asked for.
-void refuse_if_strict(const SynthesisOptions& options, const std::vector<Notice>& found) {
-  if (!options.strict || found.empty()) return;
-  throw Error(ErrorCode::bad_input, fmt::format("{} ({})", found.front().text, found.front().code),
-              {{"strict", "false"}});
-}
-
 /// `edited` is the name of the edited recording; empty for an utterance.
 Synthesized run(const Snapshot& snapshot, Wanted wanted, std::string_view edited, const SynthesisOptions& options,
                 Clock::time_point start, Synthesis used) {
@@ -241,7 +234,7 @@ Synthesized run(const Snapshot& snapshot, Wanted wanted, std::string_view edited
     std::vector<Notice> found;
     inflect(clips_to_inflect(clips, chosen_clips, *wanted.utterance, body), *wanted.utterance, snapshot, shared_rig,
             options.space, found);
-    refuse_if_strict(options, found);
+    if (options.strict) refuse(found);
     notices.insert(notices.end(), found.begin(), found.end());
   }
   const TransitionMethod& method = options.method != nullptr ? *options.method : transition_methods().front();
@@ -276,8 +269,11 @@ Synthesized run(const Snapshot& snapshot, Wanted wanted, std::string_view edited
                          .author = author,
                          .reference = reference},
                         std::move(used));
-  const std::vector<Notice> found = lint_channels(made.result, clips, composed.parts, rig, wanted.utterance);
-  refuse_if_strict(options, found);
+  for (ChannelClip& part : composed.parts.clips) clips.push_back(std::move(part.clip));
+  const std::vector<Notice> found = lint_channels(
+      {.score = made.result.score, .clips = clips, .body = body, .parts = composed.parts, .motion = made.result.motion},
+      rig);
+  if (options.strict) refuse(found);
   notices.insert(notices.end(), found.begin(), found.end());
   made.result.notices = std::move(notices);
   made.layout_from = clips[reference].recording;

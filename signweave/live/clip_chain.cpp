@@ -149,8 +149,16 @@ void ClipChain::add(std::shared_ptr<LiveClip> clip) {
 }
 
 void ClipChain::add(const LiveLanes& links) {
+  const auto shows = [](const std::deque<LiveLink>& lane, const std::shared_ptr<LiveClip>& clip) {
+    return std::ranges::find(lane, clip, &LiveLink::clip) != lane.end();
+  };
+  for (const Channel channel : kAllChannels) {
+    for (const LiveLink& link : links[static_cast<std::size_t>(channel)]) {
+      if (!shows(body(), link.clip) && !shows(lane(channel), link.clip)) link.clip->number = next_number_;
+    }
+  }
   for (const LiveLink& link : links.front()) {
-    if (std::ranges::find(body(), link.clip, &LiveLink::clip) == body().end()) number(*link.clip);
+    if (!shows(body(), link.clip)) number(*link.clip);
   }
   for (std::size_t channel = 0; channel < lanes_.size(); ++channel) {
     std::deque<LiveLink>& lane = lanes_[channel];
@@ -176,11 +184,8 @@ void ClipChain::end_with(const std::shared_ptr<LiveClip>& clip) {
     clear();
     for (std::deque<LiveLink>& lane : lanes_) lane.push_back({.clip = clip});
   }
-  while (back() != clip) {
-    const std::shared_ptr<LiveClip> gone = back();
-    for (std::deque<LiveLink>& lane : lanes_) {
-      if (lane.back().clip == gone) lane.pop_back();
-    }
+  for (std::deque<LiveLink>& lane : lanes_) {
+    while (lane.size() > 1 && lane.back().clip->number > clip->number) lane.pop_back();
   }
   next_number_ = clip->number + 1;
 }

@@ -46,8 +46,9 @@ class ClipChain {
   /// Adds a clip that was joined to the last one.
   void add(std::shared_ptr<LiveClip> clip);
   /// Adds links of each channel. The first one replaces a link of the same clip, if there is one, and all after it.
+  /// Clips that the body does not show have the number of the first one that it shows next.
   void add(const LiveLanes& links);
-  /// Removes all clips after this one; if it is not in the chain, the score starts with it.
+  /// Removes all clips that were added after this one; if it is not in the chain, the score starts with it.
   void end_with(const std::shared_ptr<LiveClip>& clip);
   /// Replaces the last clip by a shorter version of it.
   void replace_back(std::shared_ptr<LiveClip> clip);

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "signweave/choose/compose.h"
+#include "signweave/choose/lint.h"
 #include "signweave/core/error.h"
 #include "signweave/render/render.h"
 #include "signweave/score/lane_chain.h"
@@ -71,15 +72,13 @@ class StepWindow {
     std::string key = fmt::format("{}|{}|{}", setup.key, body_, clips.rests);
     for (std::size_t i = 0; i < live_.size(); ++i) {
       if (live_[i]->key.empty()) return {};
-      key += '|' + live_[i]->key;
-      if (before_.fixed[i]) {
+      key += fmt::format("|{} {} {}", live_[i]->key, clips_[i].pause_before.count(), clips_[i].continues);
+      if (before_.fixed[i])
         key += fmt::format(" at {} {}", live_[i]->placed.core - begin, live_[i]->placed.core_frames);
-      } else {
-        key += fmt::format(" new {} {}", clips_[i].pause_before.count(), clips_[i].continues);
-      }
+      for (const Sign& sign : clips_[i].signs) key += fmt::format(" {}", sign.gloss);  // notices have them
     }
     for (const ChannelStart& start : before_.starts) {
-      key += fmt::format("|{}", name_of(start.channel));
+      key += fmt::format("|{} {}", name_of(start.channel), start.stays);
       for (const ChannelLink& link : start.links) {
         key += fmt::format(" {} {}", link.clip, link.held_until ? static_cast<std::int64_t>(*link.held_until) : -1);
         if (const auto& place = before_.places[link.clip]) {
@@ -90,7 +89,7 @@ class StepWindow {
     }
     for (std::size_t i = before_.known_parts; i < parts_.clips.size(); ++i) {
       const ChannelClip& part = parts_.clips[i];
-      key += fmt::format("|{} {} {} {}", name_of(part.channel), part.first, part.last, part.fill);
+      key += fmt::format("|{} {} {} {} {}", name_of(part.channel), part.first, part.last, part.fill, part.lower);
       for (const ClipSync& sync : part.sync) {
         key += fmt::format(" {} {} {}", static_cast<int>(sync.anchor), sync.with, sync.offset.count());
       }
@@ -99,6 +98,18 @@ class StepWindow {
       key += fmt::format("|hold {} {} {}", name_of(held.channel), held.from, held.until);
     }
     return key;
+  }
+
+  /// What is reported of the new signs. `frames` are those of the score from `first` on.
+  std::vector<Notice> lint(const Score& score, const Motion& frames, std::int64_t first, const SignerRig& rig) const {
+    return lint_channels({.score = score,
+                          .clips = clips_,
+                          .body = body_,
+                          .parts = parts_,
+                          .motion = frames,
+                          .first = first,
+                          .before = &before_},
+                         rig);
   }
 
   MadeStep made_of(const Score& score, std::int64_t begin, std::shared_ptr<const Motion> frames) const {
@@ -128,7 +139,7 @@ class StepWindow {
 
   /// The step of this window's clips. Gives the new ones their places.
   LaneStep step_of(const MadeStep& made, std::int64_t begin) const {
-    LaneStep step{.made = made.frames, .begin = begin, .links = {}, .cores = {}, .clips = {}};
+    LaneStep step{.made = made.frames, .begin = begin, .links = {}, .cores = {}, .clips = {}, .notices = made.notices};
     for (std::size_t i = 0; i < live_.size(); ++i) {
       const MadeStep::Placed& at = made.clips[i];
       step.cores.emplace_back(live_[i], at.to_core);
@@ -191,7 +202,8 @@ class StepWindow {
         const std::deque<LiveLink>& theirs = chain.lane(*parent);
         if (std::ranges::equal(lane, theirs, {}, &LiveLink::clip, &LiveLink::clip)) continue;
       }
-      ChannelStart& start = before_.starts.emplace_back(ChannelStart{.channel = channel, .links = {}});
+      const bool stays = std::ranges::find(clips.stay, channel) != clips.stay.end();
+      ChannelStart& start = before_.starts.emplace_back(ChannelStart{.channel = channel, .links = {}, .stays = stays});
       for (std::size_t i = first_at(lane, begin); i < lane.size(); ++i) {
         const std::size_t number = number_of(lane[i].clip, channel);
         if (side_of_arm(channel)) before_.places[number] = lane[i].place;
@@ -268,8 +280,10 @@ StepClips without_tail(StepClips clips, bool had_tail) {
 
 std::size_t held_bytes(const MadeStep& made) noexcept {
   std::size_t links = 0;
+  std::size_t text = 0;
   for (const auto& lane : made.lanes) links += lane.size();
-  return sizeof(MadeStep) + bytes_in(*made.frames) + made.clips.size() * sizeof(MadeStep::Placed) +
+  for (const Notice& notice : made.notices) text += sizeof(Notice) + notice.text.size();
+  return sizeof(MadeStep) + text + bytes_in(*made.frames) + made.clips.size() * sizeof(MadeStep::Placed) +
          links * sizeof(MadeStep::Link);
 }
 
@@ -306,8 +320,9 @@ LaneStep make_step(const ClipChain& chain, std::int64_t begin, const StepClips& 
   Renderer renderer(plan_of(score, window.clips()), settings);
   Motion rendered;
   renderer.render(frames, rendered);
-  auto made = std::make_shared<const MadeStep>(
+  auto made = std::make_shared<MadeStep>(
       window.made_of(score, begin, with_tracks(std::move(rendered), setup.builder->tracks())));
+  if (!clips.body.empty() && !clips.rests) made->notices = window.lint(score, *made->frames, frames.begin, *setup.rig);
   if (!key.empty()) cache.keep(key, made);
   return with_clips(*made);
 }

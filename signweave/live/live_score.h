@@ -74,7 +74,7 @@ class LiveScore {
     prefetch(&events_, sizeof events_);
   }
   void prefetch_event() const noexcept {
-    if (!events_.empty()) prefetch(&events_.front().frame, sizeof(std::uint64_t));
+    if (!events_.empty()) prefetch(&events_.front().event.frame, sizeof(std::uint64_t));
   }
   /// True if nothing is left to sign from this frame on.
   bool idle(std::int64_t frame) const noexcept;
@@ -132,11 +132,28 @@ class LiveScore {
     std::optional<Candidate> signs;  ///< the signs that neighbours may continue
     StepPtr step = {};               ///< what it was signed with; null: by itself
   };
+  /// An event that is not taken yet.
+  struct Pending {
+    PlayerEvent event;
+    std::optional<std::string> once = {};  ///< its entry in Told::of_stream
+  };
+  /// A notice of lint_channels, with the first place of its step.
+  struct ToldNotice {
+    std::size_t place = 0;
+    std::string code;
+    std::string text;
+    auto operator<=>(const ToldNotice&) const = default;
+  };
+  /// What is not reported again.
+  struct Told {
+    /// Recordings whose retargeting was reported; "" for how the stream is signed.
+    std::set<std::string> of_stream;
+    std::set<ToldNotice> of_places;  ///< of this utterance
+  };
   /// Recordings with other skeletons.
   struct OtherBodies {
     /// By the generation of their motion, and whether they are mirrored.
     std::map<std::pair<std::uint64_t, bool>, std::weak_ptr<const MotionSource>> shown;
-    std::set<std::string> reported;  ///< recordings whose retargeting was reported
   };
 
   /// The last placed clip; the next one is joined to it.
@@ -149,10 +166,13 @@ class LiveScore {
   void leave_idle();
   void extended(LiveClip& clip) const;
   void notify(std::int64_t frame, std::size_t place, std::string text);
+  void tell(PlayerEvent event, std::optional<std::string> once = {});
   void report_setup(const Entry& entry);
+  void report_channels(const Entry& first, std::int64_t from);
   void sign_next();
   void go_to_rest();
   void go_to_rest_in_channels();
+  StepPtr lower_hands();
   void end_at_last_sign();
 
   // live_score_channels.cpp
@@ -208,7 +228,8 @@ class LiveScore {
 
   LiveCurves curves_;  ///< over the timeline's frames
   Timeline timeline_;
-  std::deque<PlayerEvent> events_;  ///< `frame` counts the timeline's frames
+  std::deque<Pending> events_;  ///< `frame` counts the timeline's frames
+  Told told_;
 };
 
 }  // namespace signweave

@@ -1,7 +1,10 @@
 #include <algorithm>
 #include <utility>
 
+#include "signweave/choose/compose.h"
+#include "signweave/choose/lint.h"
 #include "signweave/choose/part_choice.h"
+#include "signweave/core/error.h"
 #include "signweave/live/live_score.h"
 
 // Places in which single channels show something else than the body. They are placed together (LaneStep).
@@ -154,11 +157,12 @@ void LiveScore::sign_in_channels(std::size_t first) {
   last_sign_ = {.clip = round_.entries.back().clip, .signs = std::move(signs), .step = step};
   state_ = State::at_core;
   report_setup(round_.entries[round_.entries.size() - placed.size()]);
+  report_channels(round_.entries[round_.entries.size() - placed.size()], 0);
   for (std::size_t i = round_.entries.size() - placed.size(); i < round_.entries.size(); ++i)
     report_places(round_.entries[i], 0);
 }
 
-/// Places new clips after the chain and shows what is decided.
+/// Places new clips after the chain and shows what is decided. If asked for, what is rarely done is an error instead.
 LiveScore::StepPtr LiveScore::take_step(const StepClips& clips) {
   const auto place = [&](const ClipPtr& clip) {
     clip->key = key_of(clip->captured);
@@ -168,6 +172,7 @@ LiveScore::StepPtr LiveScore::take_step(const StepClips& clips) {
   std::ranges::for_each(clips.of_parts, place);
   auto step = std::make_shared<const LaneStep>(
       make_step(chain_, end(), clips, *setup_, options_.synthesis.tempo, cache_.steps()));
+  if (options_.synthesis.strict) refuse(step->notices);
   chain_.add(step->links);
   timeline_.append({end(), std::min(chain_.core_end(), step->end())}, step->made, step->begin);
   return step;
@@ -178,10 +183,41 @@ void LiveScore::go_to_rest_in_channels() {
   const std::int64_t core_end = tail().placed.core_end();
   take_step({.body = {rest}, .rests = true});
   state_ = State::resting;
-  events_.push_back({.kind = PlayerEvent::Kind::rest,
-                     .frame = static_cast<std::uint64_t>(end()),
-                     .at = end_of_last_sign() + time_of(end() - core_end)});
+  tell({.kind = PlayerEvent::Kind::rest,
+        .frame = static_cast<std::uint64_t>(end()),
+        .at = end_of_last_sign() + time_of(end() - core_end)});
   timeline_.append({end(), end() + kRestFramesAtOnce}, rest);
+}
+
+/// Lets hands that are held until the last place join the body's last retraction, as a file does. Returns the step that
+/// shows it: the last sign's own if none is held, or none can be lowered.
+LiveScore::StepPtr LiveScore::lower_hands() {
+  const LaneStep& last = *last_sign_.step;
+  const std::size_t last_clip = last.clips.body.size() - (last.had_tail ? 0 : 1);  // as StepClips::parts counts
+  StepClips clips;
+  for (const Side side : kSides) {
+    const Channel hand = side == Side::left ? Channel::left : Channel::right;
+    const Channel fingers = side == Side::left ? Channel::left_fingers : Channel::right_fingers;
+    if (chain_.lane(hand).back().held_until != chain_.back()) continue;
+    std::optional<MotionClip> lowered = lowered_hand(chain_.back()->captured);
+    if (!lowered) continue;
+    auto clip = std::make_shared<LiveClip>();
+    clip->captured = std::move(*lowered);
+    clips.parts.clips.push_back({.channel = hand, .clip = {}, .sync = {}, .lower = true});
+    clips.of_parts.push_back(std::move(clip));
+    if (std::ranges::any_of(last.clips.parts.clips, [&](const ChannelClip& part) {
+          return part.channel == fingers && part.last == last_clip;
+        })) {
+      clips.stay.push_back(fingers);
+    }
+  }
+  if (clips.of_parts.empty()) return last_sign_.step;
+  try {
+    return take_step(clips);
+  } catch (const Error& error) {  // a recording is gone: the hand stays where it is
+    notify(end(), round_.entries.back().last + queue_.forgotten(), error.what());
+    return last_sign_.step;
+  }
 }
 
 /// As finish_sign, among signs that were placed together: ends the timeline with the one that is shown if it ends soon.
@@ -278,13 +314,14 @@ void LiveScore::seek_in_step(std::size_t index, std::int64_t at, std::int64_t ne
   timeline_.append({next, std::min(chain_.core_end(), step->end())}, step->made, step->begin);
   // The last clip may have been continued as captured since.
   timeline_.append({std::max(next, step->end()), chain_.core_end()}, chain_.back());
-  events_.push_back({.kind = PlayerEvent::Kind::seek, .frame = static_cast<std::uint64_t>(next), .at = time_of(at)});
+  tell({.kind = PlayerEvent::Kind::seek, .frame = static_cast<std::uint64_t>(next), .at = time_of(at)});
   round_.entries.resize(index + 1);
   for (std::size_t i = first; i <= index; ++i) round_.entries[i].step = step;
   queue_.continue_at(round_.entries.back().last + 1);
   last_sign_ = {.clip = round_.entries.back().clip, .signs = {}, .step = step};
   state_ = State::at_core;
   show_authored(next);
+  report_channels(round_.entries[first], next);
   for (std::size_t i = first; i < round_.entries.size(); ++i) report_places(round_.entries[i], next);
 }
 

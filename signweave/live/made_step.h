@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "signweave/core/error.h"
 #include "signweave/live/made_cache.h"
 #include "signweave/motion/blend.h"
 #include "signweave/score/score.h"
@@ -33,6 +34,7 @@ struct MadeStep {
   std::shared_ptr<const Motion> frames;
   std::vector<Placed> clips;
   std::array<std::vector<Link>, kAllChannels.size()> lanes;
+  std::vector<Notice> notices = {};  ///< of lint_channels
 };
 std::size_t held_bytes(const MadeStep& made) noexcept;
 using StepCache = MadeCache<MadeStep>;

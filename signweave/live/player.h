@@ -62,6 +62,7 @@ struct PlayerEvent {
   std::size_t clip = 0;  ///< for a place: its clip, numbered from 0 since the stream began; see ShownScore
   Milliseconds at{0};    ///< time in the utterance, as for `seek`
   std::string text;
+  std::string code = {};  ///< of a notice of lint_channels; empty for most
 };
 
 /// The score of what a stream shows since its last jump, or since it switched from the middle of a sign to another

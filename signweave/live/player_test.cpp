@@ -177,5 +177,59 @@ TEST(PlayerDuringChanges, ContinuesFromTheShownPoseIfTheRestOfASignIsGone) {
   }
 }
 
+TEST(PlayerDuringChanges, AHeldHandStaysUpIfItsRecordingIsGone) {
+  for (const bool removed : {false, true}) {
+    const Corpus corpus;
+    SharedSigningCache cache(*corpus.database);
+    Player player(cache, {.idle = Idle::end});
+    player.sign(parse_utterance("CINQ{weak hold ..} UN"));
+    player.prepare(1);
+    Taker taker(player);
+    std::vector<std::string> notices;
+    while (player.prepare(1) > 0) {
+      taker.take(player);
+      while (const auto event = player.take_event()) {
+        if (removed && event->gloss == "UN") corpus.database->remove("c");
+        if (event->kind == PlayerEvent::Kind::notice && event->text.find("'c'") != std::string::npos) {
+          notices.push_back(event->text);
+        }
+      }
+    }
+    EXPECT_EQ(notices.size(), removed ? 1u : 0u);
+    EXPECT_TRUE(player.idle());
+  }
+}
+
+TEST(PlayerNotices, SayOnceHowTheStreamIsSigned) {
+  const Corpus corpus;
+  corpus.database->remove("a");
+  corpus.database->remove("b");
+  corpus.database->put(recording_of("d", 4, {"SIX"}));  // now there are no transitions to be measured
+  SharedSigningCache cache(*corpus.database);
+  Player player(cache, {.idle = Idle::end});
+  player.sign(parse_utterance("CINQ"));
+  player.prepare(64);
+  Taker taker(player);
+  std::size_t told = 0;
+  std::size_t unseen = 0;
+  const auto take = [&](std::size_t most) {
+    for (std::size_t i = 0; i < most && player.prepare(1) > 0 && taker.take(player); ++i) {
+      while (const auto event = player.take_event()) {
+        if (event->text.find("no measurable transitions") != std::string::npos) ++told;
+        if (event->text.find("is not seen") != std::string::npos) ++unseen;
+      }
+    }
+  };
+  for (int i = 0; i < 1'000 && told == 0; ++i) take(1);
+  player.append(parse_utterance("SIX{brows up}"));  // the stream has no tracks for it, which is a notice
+  player.prepare(64);
+  player.seek(Milliseconds(0));  // before that notice is taken
+  EXPECT_EQ(unseen, 0u);
+  take(10'000);
+  EXPECT_TRUE(player.idle());
+  EXPECT_EQ(unseen, 1u);
+  EXPECT_EQ(told, 1u);
+}
+
 }  // namespace
 }  // namespace signweave

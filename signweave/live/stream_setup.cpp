@@ -10,11 +10,8 @@
 namespace signweave {
 
 std::string key_of(const MotionClip& clip) {
-  return fmt::format("{}:{}-{}-{}-{}{}", clip.recording, clip.whole.begin, clip.core.begin, clip.core.end,
-                     clip.whole.end,
-                     clip.at_rest    ? " rest"
-                     : clip.mirrored ? " mirrored"
-                                     : "");
+  return fmt::format("{}:{}-{}-{}-{}{}{}", clip.recording, clip.whole.begin, clip.core.begin, clip.core.end,
+                     clip.whole.end, clip.at_rest ? " rest" : "", clip.mirrored ? " mirrored" : "");
 }
 
 std::shared_ptr<LiveClip> place_rest(const StreamSetup& setup) {

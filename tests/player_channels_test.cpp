@@ -46,6 +46,27 @@ TEST_P(PlayerChannels, ShowWhatTheirScoreRenders) {
             GetParam());
 }
 
+TEST_P(PlayerChannels, ShowSignsThatAreChangedInSpace) {
+  show_each(
+      {"VANNES MATIN{at @left} PLUIE", "MATIN{along @right @front}", "VANNES MATIN{plural} PLUIE",
+       "VANNES{@a = @-30} MATIN{at @a; big; slow} PLUIE{mirrored}", "VANNES{repeat 2} [MATIN{at @left} | weak: PLUIE]"},
+      GetParam());
+}
+
+TEST(PlayerChannelsToTheEnd, KnowsTheLociOfWhatWasSignedBefore) {
+  ComparedPlayer stream({.idle = Idle::end});
+  stream.player().sign(parse_utterance("VANNES{@a = @left}"));
+  stream.take(10);
+  UtteranceWords words{.follows = true};
+  stream.player().append(parse_utterance("MATIN{at @a}", words));
+  show_all(stream);
+  EXPECT_EQ(stream.player().score()->score.clips.back().changes.front().asked, "at @a");
+  EXPECT_THROW(stream.player().append(parse_utterance("MATIN{at @b}", words)), Error);
+  stream.player().sign(parse_utterance("VANNES"));
+  stream.take(10);
+  EXPECT_THROW(stream.player().append(parse_utterance("MATIN{at @a}", words)), Error) << "of another utterance";
+}
+
 TEST(PlayerChannelsToTheEnd, ShowWhatAFileShows) {
   SynthesisOptions options;
   for (const char* const text :
@@ -57,7 +78,9 @@ TEST(PlayerChannelsToTheEnd, ShowWhatAFileShows) {
         "VANNES#1{weak fingers: PLUIE#1} MATIN#1{weak hold ..} RENNES#1",
         "VANNES#1 MATIN#1{weak hold ..; weak fingers ..+1: PLUIE#1} RENNES#1",
         "VANNES#1 [MATIN#1 PLUIE#1 | left: NANTES#2 RENNES#1] VENT#1", "VANNES#1 , {neg: MATIN#1 RENNES#1}",
-        "VANNES#1{dominant left} MATIN#1{mouth \"pluie\"} RENNES#1"}) {
+        "VANNES#1{dominant left} MATIN#1{mouth \"pluie\"} RENNES#1", "VANNES#1 MATIN#1{at @left} RENNES#1",
+        "VANNES#1{big} MATIN#1{slow; mirrored; turn 0/20/0} RENNES#1{past @right}",
+        "VANNES#1{plural} MATIN#1 RENNES#1{repeat 2}", "VANNES#1{@a = @20} MATIN#1{to @a; gaze @a} RENNES#1"}) {
     SCOPED_TRACE(text);
     const Utterance utterance = parse_utterance(text);
     const Synthesized file = synthesize(corpus(), utterance, options);
@@ -232,7 +255,9 @@ TEST(PlayerChannelsAtRandom, ShowWhatTheirScoreRendersWhateverIsRequested) {
       static constexpr std::array kFaces = {"brows up", "neg", "q-polar", "gaze @left", "mouth \"pluie\""};
       const std::string hand = kHands[below(kHands.size())];
       const std::string face = kFaces[below(kFaces.size())];
-      switch (below(8)) {
+      static constexpr std::array kChanges = {"at @left",   "big; slow", "plural",
+                                              "to @-30/10", "mirrored",  "past @right"};
+      switch (below(10)) {
         case 0:
           return "[" + gloss() + " | " + hand + ": " + gloss() + "] ";
         case 1:
@@ -245,6 +270,8 @@ TEST(PlayerChannelsAtRandom, ShowWhatTheirScoreRendersWhateverIsRequested) {
           return "{" + face + ": " + gloss() + " " + gloss() + "} ";
         case 5:
           return gloss() + "{" + face + "} ";
+        case 6:
+          return gloss() + "{" + kChanges[below(kChanges.size())] + "} ";
         default:
           return gloss() + " ";
       }

@@ -47,11 +47,11 @@ LociOfSign captured_loci(const Snapshot& snapshot, std::size_t recording, TimeSp
   return {.from = resolved(LocusTier::from), .to = resolved(LocusTier::to), .at = resolved(LocusTier::at)};
 }
 
-LociOfSign wanted_loci(const SpaceChange& change, const Utterance& utterance, std::size_t place,
+LociOfSign wanted_loci(const SpaceChange& change, std::span<const LocusSetup> loci, std::size_t place,
                        const SignerBody& body) {
   const auto resolved = [&](const std::optional<LocusRef>& ref) -> std::optional<Locus> {
     if (!ref) return std::nullopt;
-    return resolve(*ref, utterance.loci, place, body);
+    return resolve(*ref, loci, place, body);
   };
   return {.from = resolved(change.from), .to = resolved(change.to), .at = resolved(change.at)};
 }
@@ -71,9 +71,9 @@ std::optional<float> distance(const LociOfSign& wanted, const LociOfSign& captur
 /// Finds the changes of clips of one signer.
 class Inflector {
  public:
-  Inflector(const Utterance& utterance, const Snapshot& snapshot, const std::shared_ptr<const SignerRig>& rig,
+  Inflector(std::span<const LocusSetup> loci, const Snapshot& snapshot, const std::shared_ptr<const SignerRig>& rig,
             const SpaceOptions& options, std::vector<Notice>& notices)
-      : utterance_(utterance), snapshot_(snapshot), rig_(rig), options_(options), notices_(notices) {}
+      : loci_(loci), snapshot_(snapshot), rig_(rig), options_(options), notices_(notices) {}
 
   void inflect(const ClipToInflect& one) {
     MotionClip& clip = *one.clip;
@@ -137,7 +137,7 @@ class Inflector {
 
   std::vector<Locus> resolved(const std::vector<LocusRef>& places, std::size_t place, const SignerBody& body) const {
     std::vector<Locus> found;
-    for (const LocusRef& ref : places) found.push_back(resolve(ref, utterance_.loci, place, body));
+    for (const LocusRef& ref : places) found.push_back(resolve(ref, loci_, place, body));
     return found;
   }
 
@@ -153,7 +153,7 @@ class Inflector {
                        asked, ChangeBasis::asked);
     }
     if (asked.past) {
-      const Locus past = resolve(*asked.past, utterance_.loci, one.place, changer.body());
+      const Locus past = resolve(*asked.past, loci_, one.place, changer.body());
       return change_of(take_past(changer, stroke, past, asked.keeps_turn), asked, ChangeBasis::asked);
     }
     return aimed_change(changer, stroke, clip, one.place, asked);
@@ -161,7 +161,7 @@ class Inflector {
 
   ClipChange aimed_change(StrokeChanger& changer, const CapturedStroke& stroke, const MotionClip& clip,
                           std::size_t place, const SpaceChange& asked) {
-    const LociOfSign wanted = wanted_loci(asked, utterance_, place, changer.body());
+    const LociOfSign wanted = wanted_loci(asked, loci_, place, changer.body());
     const LociOfSign captured = loci_of(clip, changer.body());
     const std::optional<float> off = distance(wanted, captured);
     if (off && *off <= kCapturedLocus) {
@@ -205,7 +205,7 @@ class Inflector {
     return role;
   }
 
-  const Utterance& utterance_;
+  std::span<const LocusSetup> loci_;
   const Snapshot& snapshot_;
   const std::shared_ptr<const SignerRig>& rig_;
   const SpaceOptions& options_;
@@ -233,9 +233,16 @@ std::vector<SpaceChange> repetitions_of(const SpaceChange& change) {
   return all;
 }
 
-void prefer_loci(const Snapshot& snapshot, const Utterance& utterance, std::size_t place,
-                 std::vector<Candidate>& candidates) {
-  const SpaceChange& change = utterance.places[place].space;
+void check_loci(const SpaceChange& change, std::span<const LocusSetup> loci, std::size_t place) {
+  const SignerBody body;  // only where the chest is depends on it
+  const LociOfSign wanted = wanted_loci(change, loci, place, body);
+  for (const std::optional<Locus>& locus : {wanted.from, wanted.to, wanted.at}) require_in_front(locus);
+  for (const LocusRef& ref : change.along) resolve(ref, loci, place, body);
+  if (change.past) resolve(*change.past, loci, place, body);
+}
+
+void prefer_loci(const Snapshot& snapshot, const SpaceChange& change, std::span<const LocusSetup> loci,
+                 std::size_t place, std::vector<Candidate>& candidates) {
   if (!change.from && !change.to && !change.at) return;
   std::vector<std::optional<float>> distances;
   float least = std::numeric_limits<float>::infinity();
@@ -243,7 +250,7 @@ void prefer_loci(const Snapshot& snapshot, const Utterance& utterance, std::size
     const auto signer = snapshot.signer(snapshot.contents().recordings[candidate.recording]);
     std::optional<float> off;
     if (signer->body && !candidate.signs.empty()) {
-      off = distance(wanted_loci(change, utterance, place, *signer->body),
+      off = distance(wanted_loci(change, loci, place, *signer->body),
                      captured_loci(snapshot, candidate.recording, candidate.signs.front().span, *signer->body));
     }
     if (off) least = std::min(least, *off);
@@ -260,9 +267,9 @@ void prefer_loci(const Snapshot& snapshot, const Utterance& utterance, std::size
   candidates.resize(kept);
 }
 
-void inflect(std::span<const ClipToInflect> clips, const Utterance& utterance, const Snapshot& snapshot,
+void inflect(std::span<const ClipToInflect> clips, std::span<const LocusSetup> loci, const Snapshot& snapshot,
              const std::shared_ptr<const SignerRig>& rig, const SpaceOptions& options, std::vector<Notice>& notices) {
-  Inflector inflector(utterance, snapshot, rig, options, notices);
+  Inflector inflector(loci, snapshot, rig, options, notices);
   for (const ClipToInflect& clip : clips) inflector.inflect(clip);
 }
 

@@ -33,8 +33,8 @@ std::vector<SpaceChange> repetitions_of(const SpaceChange& change);
 
 /// Takes out candidates whose annotated loci are farther from the requested ones than those of the nearest candidate,
 /// and kLociApart: what is captured needs no change, and what is near needs less. Without annotated loci, all stay.
-void prefer_loci(const Snapshot& snapshot, const Utterance& utterance, std::size_t place,
-                 std::vector<Candidate>& candidates);
+void prefer_loci(const Snapshot& snapshot, const SpaceChange& change, std::span<const LocusSetup> loci,
+                 std::size_t place, std::vector<Candidate>& candidates);
 inline constexpr float kCapturedLocus = 10;  ///< degrees: a token with this locus is taken as captured
 inline constexpr float kLociApart = 15;      ///< degrees
 
@@ -45,10 +45,13 @@ struct ClipToInflect {
   SpaceChange change;  ///< of this repetition
 };
 
+/// Throws what `inflect` throws for loci: for names that are not set up by then, and for loci behind the signer.
+void check_loci(const SpaceChange& change, std::span<const LocusSetup> loci, std::size_t place);
+
 /// Finds the change of each clip for the signer of the result, and reads its frames through it from now on. `rig` is
 /// that of the result's skeleton, which the clips must have. Notices say what is not reached, and which role was
 /// guessed. Throws Error{bad_input, not_found} for unknown loci, loci behind the signer, and signs without role.
-void inflect(std::span<const ClipToInflect> clips, const Utterance& utterance, const Snapshot& snapshot,
+void inflect(std::span<const ClipToInflect> clips, std::span<const LocusSetup> loci, const Snapshot& snapshot,
              const std::shared_ptr<const SignerRig>& rig, const SpaceOptions& options, std::vector<Notice>& notices);
 
 /// Reads the frames of clips through the changes that a score gives them.

@@ -232,8 +232,8 @@ Synthesized run(const Snapshot& snapshot, Wanted wanted, std::string_view edited
   const SignerRig& rig = *shared_rig;
   if (wanted.utterance != nullptr) {
     std::vector<Notice> found;
-    inflect(clips_to_inflect(clips, chosen_clips, *wanted.utterance, body), *wanted.utterance, snapshot, shared_rig,
-            options.space, found);
+    inflect(clips_to_inflect(clips, chosen_clips, *wanted.utterance, body), wanted.utterance->loci, snapshot,
+            shared_rig, options.space, found);
     if (options.strict) refuse(found);
     notices.insert(notices.end(), found.begin(), found.end());
   }
@@ -357,7 +357,7 @@ Synthesized synthesize(const Database& database, const Utterance& requested, con
   for (std::size_t i = 0; i < utterance.places.size(); ++i) {
     const Place& place = utterance.places[i];
     wanted.choices.push_back({candidates_for(snapshot.contents(), place), place.pause_before});
-    prefer_loci(snapshot, utterance, i, wanted.choices.back().candidates);
+    prefer_loci(snapshot, place.space, utterance.loci, i, wanted.choices.back().candidates);
     wanted.dominant.push_back(place.dominant);
   }
   return run(snapshot, std::move(wanted), {}, options, start, std::move(used));

@@ -161,15 +161,6 @@ ArmChange arm_change(const Vector3f& a, const Vector3f& b, const Vector3f& a2, c
   return change;
 }
 
-void check_in_front(const std::optional<Locus>& locus) {
-  if (!locus || locus->self) return;
-  const float angle = angles_of(locus->at).azimuth;
-  if (std::abs(angle) <= kMostAzimuth) return;
-  throw Error(ErrorCode::bad_input,
-              fmt::format("a locus at {:.0f}° is behind the signer; give one within {:.0f}° to either side", angle,
-                          kMostAzimuth));
-}
-
 /// The change of a hand, or of both if they keep to each other.
 StrokeChange change_of(const CapturedStroke& stroke, Side side, ArmChange arm) {
   StrokeChange change{.arms = {}, .together = stroke.together()};
@@ -291,9 +282,18 @@ Aimed point(StrokeChanger& changer, const CapturedStroke& stroke, const Locus& t
 
 }  // namespace
 
+void require_in_front(const std::optional<Locus>& locus) {
+  if (!locus || locus->self) return;
+  const float angle = angles_of(locus->at).azimuth;
+  if (std::abs(angle) <= kMostAzimuth) return;
+  throw Error(ErrorCode::bad_input,
+              fmt::format("a locus at {:.0f}° is behind the signer; give one within {:.0f}° to either side", angle,
+                          kMostAzimuth));
+}
+
 Aimed aim_stroke(StrokeChanger& changer, const CapturedStroke& stroke, SpaceRole role, const LociOfSign& wanted,
                  const LociOfSign& captured) {
-  for (const auto& locus : {wanted.from, wanted.to, wanted.at}) check_in_front(locus);
+  for (const auto& locus : {wanted.from, wanted.to, wanted.at}) require_in_front(locus);
   if (role == SpaceRole::aim && (wanted.at || wanted.to)) {
     return point(changer, stroke, wanted.at ? *wanted.at : *wanted.to);
   }

@@ -36,6 +36,9 @@ struct Aimed {
 Aimed aim_stroke(StrokeChanger& changer, const CapturedStroke& stroke, SpaceRole role, const LociOfSign& wanted,
                  const LociOfSign& captured);
 
+/// Throws Error{bad_input} for a locus behind the signer.
+void require_in_front(const std::optional<Locus>& locus);
+
 /// A locus at a larger azimuth than this is behind the signer. Degrees. (ours)
 inline constexpr float kMostAzimuth = 110;
 /// A hand points at nearer loci as if they were this far away in the same direction from between the shoulders.

@@ -159,7 +159,8 @@ class LiveScore {
   /// The last placed clip; the next one is joined to it.
   LiveClip& tail() const noexcept { return *chain_.back(); }
   MotionClip clip_of(const Contents& contents, const Candidate& candidate, std::size_t place,
-                     std::optional<bool> mirrored = {});
+                     std::optional<bool> mirrored = {}, bool exchanged = false);
+  void change_in_space(MotionClip& clip, std::size_t place, std::size_t repetition);
   std::shared_ptr<const MotionSource> on_skeleton(const RecordingInfo& info,
                                                   std::shared_ptr<const MotionSource> source);
   void set_up_for(const MotionClip& first, const std::shared_ptr<const Contents>& contents);

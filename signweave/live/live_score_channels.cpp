@@ -45,9 +45,11 @@ std::vector<LiveScore::Entry> LiveScore::clips_of_places(std::size_t first, std:
       continue;
     }
     auto clip = std::make_shared<LiveClip>();
-    clip->captured = clip_of(*decision.contents, candidate, place);
+    clip->captured = clip_of(*decision.contents, candidate, place, {}, queue_.space(place).mirrored);
     clip->captured.sign_places.assign(candidate.signs.size(), place + queue_.forgotten());
     set_up_for(clip->captured, decision.contents);
+    const MotionClip captured = clip->captured;
+    change_in_space(clip->captured, place, 0);
     if (follows) {
       clip->captured.continues = true;
       if (is_first) {
@@ -60,6 +62,14 @@ std::vector<LiveScore::Entry> LiveScore::clips_of_places(std::size_t first, std:
     signs = candidate;
     clips.body.push_back(clip);
     placed.push_back({.clip = std::move(clip), .first = place, .last = place});
+    for (std::size_t i = 1; i < queue_.space(place).repetitions; ++i) {
+      auto again = std::make_shared<LiveClip>();
+      again->captured = captured;
+      again->captured.pause_before = Milliseconds(0);
+      change_in_space(again->captured, place, i);
+      clips.body.push_back(again);
+      placed.push_back({.clip = std::move(again), .first = place, .last = place});
+    }
   }
   return placed;
 }
@@ -92,8 +102,11 @@ void LiveScore::add_parts(std::size_t first, std::size_t last, const std::vector
   if (found.empty()) return;
   std::vector<std::size_t> clip_of_place(before, 0);  // see StepClips::parts
   const std::size_t tails = chain_.empty() ? 0 : 1;
-  for (std::size_t i = 0; i < placed.size(); ++i) {
-    clip_of_place.insert(clip_of_place.end(), placed[i].last - placed[i].first + 1, tails + i);
+  clip_of_place.resize(before + last - first + 1);
+  for (std::size_t i = 0; i < placed.size(); ++i) {  // a place that is repeated: its last repetition
+    for (std::size_t place = placed[i].first; place <= placed[i].last; ++place) {
+      clip_of_place[before + place - first] = tails + i;
+    }
   }
   for (const ChosenPart& part : found) {
     auto clip = std::make_shared<LiveClip>();
@@ -112,6 +125,7 @@ void LiveScore::add_holds(std::size_t first, std::size_t last, const std::vector
   const auto clip_of_place = [&](std::size_t place) {
     std::size_t i = 0;
     while (placed[i].last < place) ++i;
+    while (i + 1 < placed.size() && placed[i + 1].first == place) ++i;  // its last repetition
     return tails + i;
   };
   for (const ChannelHold& held : queue_.holds()) {

@@ -3,6 +3,8 @@
 #include <algorithm>
 
 #include "signweave/choose/handedness.h"
+#include "signweave/choose/inflect.h"
+#include "signweave/choose/lint.h"
 #include "signweave/choose/notices.h"
 #include "signweave/choose/on_skeleton.h"
 #include "signweave/core/error.h"
@@ -14,9 +16,9 @@
 namespace signweave {
 
 /// The clip of a place's token. It is mirrored if the hand that is to be dominant there is another than its signer's,
-/// unless `mirrored` says so for it.
+/// unless `mirrored` says so for it, and mirrored once more if `exchanged`.
 MotionClip LiveScore::clip_of(const Contents& contents, const Candidate& candidate, std::size_t place,
-                              std::optional<bool> mirrored) {
+                              std::optional<bool> mirrored, bool exchanged) {
   const RecordingInfo& info = contents.recordings[candidate.recording];
   const auto own = std::make_shared<RecordingSource>(open_, info);
   MotionClip clip{.recording = info.name,
@@ -29,9 +31,9 @@ MotionClip LiveScore::clip_of(const Contents& contents, const Candidate& candida
                   .fingerprint = info.motion_facts.fingerprint,
                   .place = place + queue_.forgotten()};
   std::vector<Notice> notices;
-  if (const std::optional<Side> hand = queue_.wanted_hand(place); hand || mirrored) {
+  if (const std::optional<Side> hand = queue_.wanted_hand(place); hand || mirrored || exchanged) {
     mark_mirrored({&clip, 1}, {&hand, 1}, open_.snapshot(), notices);
-    clip.mirrored = mirrored.value_or(clip.mirrored);
+    clip.mirrored = mirrored.value_or(clip.mirrored) != exchanged;
     mirror_marked({&clip, 1}, open_.snapshot(), notices);
   }
   clip.source = on_skeleton(info, clip.source);
@@ -134,7 +136,7 @@ void LiveScore::sign_next() {
     return;
   }
   auto clip = std::make_shared<LiveClip>();
-  clip->captured = clip_of(*decision.contents, decision.candidate, first);
+  clip->captured = clip_of(*decision.contents, decision.candidate, first, {}, queue_.space(first).mirrored);
   Candidate signs = decision.candidate;
   std::size_t last = first;
   std::vector<std::size_t> sign_places(signs.signs.size(), *clip->captured.place);
@@ -148,6 +150,7 @@ void LiveScore::sign_next() {
   clip->captured.signs = signs.signs;
   clip->captured.sign_places = std::move(sign_places);
   set_up_for(clip->captured, decision.contents);
+  change_in_space(clip->captured, first, 0);
   setup_->builder->place_sign(*clip);
   clip->key = key_of(clip->captured);
 
@@ -183,6 +186,26 @@ void LiveScore::set_up_for(const MotionClip& first, const std::shared_ptr<const 
   PlayerOptions options = options_;
   if (!queue_.non_manuals().empty()) options.face = true;
   setup_ = set_up(cache_, open_.snapshot(), contents, first, options);
+}
+
+/// Changes a clip of a place, its n-th repetition, as the place asks.
+void LiveScore::change_in_space(MotionClip& clip, std::size_t place, std::size_t repetition) {
+  const SpaceChange& change = queue_.space(place);
+  if (changes_nothing(change)) return;
+  const ClipToInflect one{.clip = &clip, .place = place, .change = repetitions_of(change)[repetition]};
+  std::vector<Notice> notices;
+  inflect({&one, 1}, queue_.loci(), open_.snapshot(), setup_->rig, options_.synthesis.space, notices);
+  if (options_.synthesis.strict) refuse(notices);
+  for (const Notice& notice : notices) {
+    const std::size_t number = place + queue_.forgotten();
+    if (!told_.of_places.insert({number, notice.code, notice.text}).second) continue;
+    tell({.kind = PlayerEvent::Kind::notice,
+          .frame = static_cast<std::uint64_t>(end()),
+          .place = number,
+          .recording = notice.where,
+          .text = notice.text,
+          .code = notice.code});
+  }
 }
 
 /// Ends the rest before a sign.

@@ -5,10 +5,11 @@
 #include <algorithm>
 #include <span>
 
+#include "signweave/choose/inflect.h"
 #include "signweave/choose/non_manuals.h"
 #include "signweave/choose/part_choice.h"
-#include "signweave/choose/refuse_space.h"
 #include "signweave/choose/select.h"
+#include "signweave/choose/space_gaze.h"
 #include "signweave/core/error.h"
 #include "signweave/database/signer_dominance.h"
 
@@ -63,7 +64,6 @@ PlaceQueue::PlaceQueue(SharedSigningCache& cache, OpenRecordings& open, const Pl
 
 void PlaceQueue::check(const Utterance& utterance, bool after_those_waiting) const {
   if (utterance.places.empty()) return;
-  refuse_space(utterance);
   const std::size_t waiting = after_those_waiting ? places_.size() - next_ : 0;
   if (waiting + utterance.places.size() > kMostPlaces) {
     throw Error(ErrorCode::bad_input, fmt::format("{} signs would wait, more than {}; send the others later",
@@ -82,8 +82,18 @@ void PlaceQueue::check(const Utterance& utterance, bool after_those_waiting) con
   const std::shared_ptr<const Contents> contents = cache_.database().contents();
   cache_.check(contents, utterance.places);
   if (has_parts(utterance)) part_choices(*contents, utterance, Side::right);
-  check_non_manuals(utterance, options_.synthesis.non_manuals);
+  const Utterance known = after_those_waiting ? with_known_loci(utterance) : with_gazes_at_loci(utterance);
+  for (std::size_t i = 0; i < known.places.size(); ++i) check_loci(known.places[i].space, known.loci, i);
+  check_non_manuals(known, options_.synthesis.non_manuals);
   check_ranges(utterance, after_those_waiting && !places_.empty());
+}
+
+/// With the loci that were set up before it, and gazes at them.
+Utterance PlaceQueue::with_known_loci(const Utterance& utterance) const {
+  Utterance known = utterance;
+  if (!known.places.empty()) known.loci.insert(known.loci.begin(), loci_.begin(), loci_.end());
+  for (std::size_t i = 0; i < loci_.size() && i < known.loci.size(); ++i) known.loci[i].from = 0;
+  return with_gazes_at_loci(std::move(known));
 }
 
 void PlaceQueue::replace(const Utterance& utterance) {
@@ -94,6 +104,7 @@ void PlaceQueue::replace(const Utterance& utterance) {
   borders_.clear();
   holds_.clear();
   non_manuals_.clear();
+  loci_.clear();
   next_ = 0;
   forgotten_ = 0;
   forgotten_non_manuals_ = 0;
@@ -124,8 +135,9 @@ std::optional<std::size_t> PlaceQueue::continued(const Utterance& utterance) {
   return std::nullopt;
 }
 
-void PlaceQueue::add(const Utterance& utterance, bool can_go_on) {
-  if (utterance.places.empty()) return;
+void PlaceQueue::add(const Utterance& requested, bool can_go_on) {
+  if (requested.places.empty()) return;
+  const Utterance utterance = with_known_loci(requested);
   const std::size_t first = places_.size();
   Side usual = options_.synthesis.handedness.value_or(Side::right);
   if (!options_.synthesis.handedness && (has_parts(utterance) || !utterance.holds.empty())) {
@@ -142,6 +154,13 @@ void PlaceQueue::add(const Utterance& utterance, bool can_go_on) {
       const std::size_t end = std::min(i + part.places, places_.size());
       std::fill(tied_.begin() + static_cast<std::ptrdiff_t>(i), tied_.begin() + static_cast<std::ptrdiff_t>(end), true);
     }
+  }
+  for (std::size_t i = first; i < places_.size(); ++i) {
+    if (places_[i].space.repetitions > 1) tied_[i] = true;  // its repetitions are placed together
+  }
+  for (LocusSetup setup : requested.loci) {
+    setup.from += first;
+    loci_.push_back(std::move(setup));
   }
   for (const std::size_t border : clip_borders(utterance)) borders_.insert(first + border);
   for (ChannelHold held : channel_holds(utterance, usual)) {
@@ -218,6 +237,12 @@ std::size_t PlaceQueue::forget() noexcept {
     one.first -= count;
     one.last -= count;
   }
+  std::set<std::string> later;
+  for (std::size_t i = loci_.size(); i-- > 0;) {
+    loci_[i].from -= std::min(loci_[i].from, count);
+    const bool is_replaced = loci_[i].from == 0 && !later.insert(loci_[i].name).second;
+    if (is_replaced) loci_.erase(loci_.begin() + static_cast<std::ptrdiff_t>(i));
+  }
   next_ -= count;
   forgotten_ += count;
   return count;
@@ -228,12 +253,23 @@ std::size_t PlaceQueue::take_next() noexcept {
   return next_++;
 }
 
+/// Those that come near the loci of the place.
+std::shared_ptr<const std::vector<Candidate>> PlaceQueue::candidates(const std::shared_ptr<const Contents>& contents,
+                                                                     std::size_t place) const {
+  const SpaceChange& change = places_[place].space;
+  std::shared_ptr<const std::vector<Candidate>> all = cache_.candidates(contents, places_[place]);
+  if (!change.from && !change.to && !change.at) return all;
+  auto near = std::make_shared<std::vector<Candidate>>(*all);
+  prefer_loci(open_.snapshot(), change, loci_, place, *near);
+  return near;
+}
+
 const PlaceQueue::Decision& PlaceQueue::decide(std::size_t place) {
   std::unique_ptr<const Decision>& decision = decisions_[place];
   if (decision) return *decision;
   const Snapshot& snapshot = open_.snapshot();
   const std::shared_ptr<const Contents>& contents = snapshot.shared_contents();
-  const std::shared_ptr<const std::vector<Candidate>> own = cache_.candidates(contents, places_[place]);
+  const std::shared_ptr<const std::vector<Candidate>> own = candidates(contents, place);
   if (own->size() == 1) {
     decision = std::make_unique<const Decision>(Decision{contents, own->front()});
     return *decision;
@@ -245,7 +281,7 @@ const PlaceQueue::Decision& PlaceQueue::decide(std::size_t place) {
   choices.push_back({*own, places_[place].pause_before});
   for (std::size_t i = place + 1; i <= last; ++i) {
     try {
-      choices.push_back({*cache_.candidates(contents, places_[i]), places_[i].pause_before});
+      choices.push_back({*candidates(contents, i), places_[i].pause_before});
     } catch (const Error&) {  // reported when the place is due
       break;
     }
@@ -272,6 +308,7 @@ bool PlaceQueue::decided_well(std::size_t place) const noexcept {
 bool PlaceQueue::follows(const Candidate& before, std::size_t place) const {
   if (place == 0 || !decisions_[place - 1] || places_[place].pause_before > Milliseconds(0)) return false;
   if (wanted_hand(place) != wanted_hand(place - 1)) return false;
+  if (is_changed(places_[place]) || is_changed(places_[place - 1])) return false;
   const Decision& now = *decisions_[place];
   return decisions_[place - 1]->contents == now.contents && are_neighbours(*now.contents, before, now.candidate);
 }

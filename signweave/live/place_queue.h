@@ -28,15 +28,15 @@ class PlaceQueue {
     Candidate candidate;
   };
 
-  /// Throws what `candidates_for` throws for one of the places and what `author_non_manuals` does; Error{bad_input} if
-  /// a pause is longer than kLongestPause, more than kMostTied places belong together, or there would be more than
-  /// kMostPlaces, including the waiting ones if `after_those_waiting`.
+  /// Throws what `candidates_for` throws for one of the places and what `author_non_manuals` and check_loci do;
+  /// Error{bad_input} if a pause is longer than kLongestPause, more than kMostTied places belong together, or there
+  /// would be more than kMostPlaces, including the waiting ones if `after_those_waiting`.
   void check(const Utterance& utterance, bool after_those_waiting) const;
   /// Replaces all places by these, which must be checked.
   void replace(const Utterance& utterance);
   /// Appends these places, which must be checked. An expression or a gaze that ends with the last place goes on in the
   /// same one of the first new place if `can_go_on`.
-  void add(const Utterance& utterance, bool can_go_on = true);
+  void add(const Utterance& requested, bool can_go_on = true);
   /// The number of the non-manual that would go on.
   std::optional<std::size_t> continued(const Utterance& utterance);
   void set_loop(bool loop) noexcept { loop_ = loop; }
@@ -76,6 +76,9 @@ class PlaceQueue {
   /// How many of them were dropped with their places since the last `replace`.
   std::size_t forgotten_non_manuals() const noexcept { return forgotten_non_manuals_; }
 
+  const SpaceChange& space(std::size_t place) const noexcept { return places_[place].space; }
+  const std::vector<LocusSetup>& loci() const noexcept { return loci_; }
+
   Milliseconds pause_before(std::size_t place) const noexcept { return places_[place].pause_before; }
   /// Chooses the token of a place, given the one before it and up to `look_ahead` known places after it. Throws if
   /// there is none.
@@ -100,6 +103,9 @@ class PlaceQueue {
 
  private:
   bool decided_well(std::size_t place) const noexcept;
+  std::shared_ptr<const std::vector<Candidate>> candidates(const std::shared_ptr<const Contents>& contents,
+                                                           std::size_t place) const;
+  Utterance with_known_loci(const Utterance& utterance) const;
   NonManual* continued_by(const NonManual& one) noexcept;
 
   SharedSigningCache& cache_;
@@ -113,6 +119,7 @@ class PlaceQueue {
   std::set<std::size_t> borders_;                           ///< places at which parts or holds begin or end
   std::vector<ChannelHold> holds_;                          ///< between places
   std::vector<NonManual> non_manuals_;
+  std::vector<LocusSetup> loci_;  ///< in the order of their places
   std::size_t forgotten_non_manuals_ = 0;
   std::size_t next_ = 0;       ///< the place to sign next
   std::size_t forgotten_ = 0;  ///< places dropped since the last `replace`

@@ -10,8 +10,11 @@
 namespace signweave {
 
 std::string key_of(const MotionClip& clip) {
-  return fmt::format("{}:{}-{}-{}-{}{}{}", clip.recording, clip.whole.begin, clip.core.begin, clip.core.end,
-                     clip.whole.end, clip.at_rest ? " rest" : "", clip.mirrored ? " mirrored" : "");
+  std::string key = fmt::format("{}:{}-{}-{}-{}{}{}", clip.recording, clip.whole.begin, clip.core.begin, clip.core.end,
+                                clip.whole.end, clip.at_rest ? " rest" : "", clip.mirrored ? " mirrored" : "");
+  if (clip.speed != 1) key += fmt::format(" x{}", clip.speed);
+  for (const ClipChange& change : clip.changes) key += fmt::format(" {:x}", checksum_of(change.stroke));
+  return key;
 }
 
 std::shared_ptr<LiveClip> place_rest(const StreamSetup& setup) {

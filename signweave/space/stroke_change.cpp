@@ -1,7 +1,9 @@
 #include "signweave/space/stroke_change.h"
 
 #include <cmath>
+#include <span>
 
+#include "signweave/core/bytes.h"
 #include "signweave/core/error.h"
 
 namespace signweave {
@@ -27,6 +29,30 @@ bool is_valid(const ArmChange& arm) {
 }
 
 }  // namespace
+
+std::uint64_t checksum_of(const StrokeChange& change) {
+  std::vector<float> numbers = {change.together ? 1.0f : 0.0f, change.trunk_yaw, static_cast<float>(change.before),
+                                static_cast<float>(change.after)};
+  const auto add = [&](const auto& coefficients) {
+    numbers.insert(numbers.end(), coefficients.data(), coefficients.data() + coefficients.size());
+  };
+  for (const std::optional<ArmChange>& arm : change.arms) {
+    numbers.push_back(arm ? static_cast<float>(arm->path.size()) : -1.0f);
+    if (!arm) continue;
+    add(arm->linear);
+    add(arm->from);
+    add(arm->to);
+    add(arm->turn.coeffs());
+    add(arm->carry.coeffs());
+    numbers.push_back(arm->swivel);
+    for (const PathPoint& point : arm->path) {
+      add(point.shift);
+      add(point.turn);
+      numbers.push_back(point.swivel);
+    }
+  }
+  return checksum(std::as_bytes(std::span<const float>(numbers)));
+}
 
 std::string_view name_of(ChangeBasis basis) noexcept {
   return kBasisNames[static_cast<std::size_t>(basis)];

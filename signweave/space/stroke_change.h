@@ -54,6 +54,9 @@ inline bool is_as_captured(const StrokeChange& change) noexcept {
   return !change.arms[0] && !change.arms[1] && change.trunk_yaw == 0;
 }
 
+/// A number that differs for other changes, for caches.
+std::uint64_t checksum_of(const StrokeChange& change);
+
 /// Where a change comes from.
 enum class ChangeBasis : std::uint8_t {
   asked = 0,      ///< the numbers were asked for

@@ -1,5 +1,10 @@
 #include "signweave/calls/utterance_call.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+
 namespace signweave::calls {
 namespace {
 
@@ -58,6 +63,22 @@ std::string_view kind_name(NonManual::Kind kind) {
   return "expression";
 }
 
+std::optional<std::string> locus_text(const std::optional<LocusRef>& locus) {
+  return locus ? std::optional(to_string(*locus)) : std::nullopt;
+}
+
+double as_written(float value) {
+  const std::string text = fmt::format("{}", value);
+  double number = 0;
+  std::from_chars(text.data(), text.data() + text.size(), number);
+  return number;
+}
+
+std::optional<std::vector<double>> as_written(const std::array<float, 3>& axes, float usual) {
+  if (std::ranges::count(axes, usual) == 3) return std::nullopt;
+  return std::vector<double>{as_written(axes[0]), as_written(axes[1]), as_written(axes[2])};
+}
+
 std::optional<std::string_view> pause_name(Milliseconds pause) {
   if (pause <= Milliseconds(0)) return std::nullopt;
   return pause > kComma ? "stop" : "comma";
@@ -66,8 +87,10 @@ std::optional<std::string_view> pause_name(Milliseconds pause) {
 UtteranceAnswer run(const UtteranceCall& call) {
   const std::string& text = call.text;
   const UtteranceText read = read_utterance(text);
-  UtteranceAnswer answer{
-      .pause_after = read.pause_after, .holds = read.utterance.holds, .non_manuals = read.utterance.non_manuals};
+  UtteranceAnswer answer{.pause_after = read.pause_after,
+                         .holds = read.utterance.holds,
+                         .non_manuals = read.utterance.non_manuals,
+                         .loci = read.utterance.loci};
   if (read.faults.empty() && !read.utterance.places.empty()) answer.canonical = to_string(read.utterance);
   CharacterCounter in_places(text);
   for (std::size_t k = 0; k < read.spans.size(); ++k) {

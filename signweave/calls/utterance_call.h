@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -47,6 +48,11 @@ namespace calls {
 std::vector<std::string_view> part_names();
 std::vector<std::string_view> fault_names();
 std::string_view kind_name(NonManual::Kind kind);
+/// A locus as a text gives it, without "@".
+std::optional<std::string> locus_text(const std::optional<LocusRef>& locus);
+/// The numbers that a text would give: 1.3 rather than 1.2999999523.
+double as_written(float value);
+std::optional<std::vector<double>> as_written(const std::array<float, 3>& axes, float usual);
 }  // namespace calls
 
 template <class Visit>
@@ -55,6 +61,44 @@ void fields(Visit& visit, const PlacePart& part) {
   visit(AnswerField{.name = "part", .one_of = calls::part_names()}, name_of(part.part));
   visit(AnswerField{.name = "places", .help = "the number of places that it accompanies", .minimum = 1}, part.places);
   visit(AnswerField{.name = "signs"}, part.signs);
+}
+
+/// Values as usual are left out.
+template <class Visit>
+void fields(Visit& visit, const SpaceChange& change) {
+  visit.type("UtteranceSpace", "where a sign goes, and how its strokes are changed; what is missing is as captured");
+  visit(AnswerField{.name = "from", .help = "the locus at which it begins, such as left, a, 30/10 or 0.3,0.1,0.8"},
+        calls::locus_text(change.from));
+  visit(AnswerField{.name = "to", .help = "the locus at which it ends"}, calls::locus_text(change.to));
+  visit(AnswerField{.name = "at", .help = "the locus at which it points or is made"}, calls::locus_text(change.at));
+  std::vector<std::string> along;
+  for (const LocusRef& locus : change.along) along.push_back(to_string(locus));
+  visit(AnswerField{.name = "along", .help = "the loci along which the hand goes"}, given_if(!along.empty(), along));
+  visit(AnswerField{.name = "past", .help = "the locus that the hand passes"}, calls::locus_text(change.past));
+  visit(AnswerField{.name = "unturned", .help = "the hand keeps its orientation on its path"},
+        given_if(change.keeps_turn, true));
+  visit(AnswerField{.name = "move_cm", .help = "to the left, up, forward"}, calls::as_written(change.move, 0));
+  visit(AnswerField{.name = "turn_degrees", .help = "about the axes left, up, forward"},
+        calls::as_written(change.turn, 0));
+  visit(AnswerField{.name = "scale", .help = "factors along the axes left, up, forward"},
+        calls::as_written(change.scale, 1));
+  visit(AnswerField{.name = "size", .help = "a factor of the whole movement"},
+        given_if(change.size != 1, calls::as_written(change.size)));
+  visit(AnswerField{.name = "speed", .help = "a factor of the speed of its strokes"},
+        given_if(change.speed != 1, calls::as_written(change.speed)));
+  visit(AnswerField{.name = "repetitions", .help = "the times that a stroke is signed", .minimum = 1},
+        given_if(change.repetitions != 1, change.repetitions));
+  visit(AnswerField{.name = "outward", .help = "repetitions shrink and go outward: a plural"},
+        given_if(change.outward, true));
+  visit(AnswerField{.name = "mirrored", .help = "left and right are exchanged"}, given_if(change.mirrored, true));
+}
+
+template <class Visit>
+void fields(Visit& visit, const LocusSetup& setup) {
+  visit.type("UtteranceLocus", "a locus that is set up at a place");
+  visit(AnswerField{.name = "name"}, setup.name);
+  visit(AnswerField{.name = "is", .help = "the locus that it is, such as left or 30/10"}, to_string(setup.is));
+  visit(AnswerField{.name = "from", .help = "the place from which on it is there, from 0", .minimum = 0}, setup.from);
 }
 
 template <class Visit>
@@ -69,7 +113,8 @@ template <class Visit>
 void fields(Visit& visit, const NonManual& one) {
   visit.type("UtteranceNonManual", "a movement of the face, the gaze or the head over places");
   visit(AnswerField{.name = "kind", .one_of = {"expression", "mouthing", "gaze"}}, calls::kind_name(one.kind));
-  visit(AnswerField{.name = "what", .help = "the expression, the text to be mouthed, or the direction"}, one.what);
+  visit(AnswerField{.name = "what", .help = "the expression, the text to be mouthed, or the direction or locus"},
+        one.what);
   visit(AnswerField{.name = "first", .help = "the place, from 0", .minimum = 0}, one.first);
   visit(AnswerField{.name = "last", .help = "inclusive", .minimum = 0}, one.last);
   visit(AnswerField{.name = "begin_ms", .help = "added to its usual begin"}, one.begin.count());
@@ -115,6 +160,8 @@ void fields(Visit& visit, const TextPlace& one) {
                     .one_of = {"left", "right"}},
         given_if(place.dominant.has_value(), std::string_view(place.dominant == Side::left ? "left" : "right")));
   visit(AnswerField{.name = "parts", .help = "missing: none"}, given_if(!place.parts.empty(), place.parts));
+  visit(AnswerField{.name = "space", .help = "missing: as captured"},
+        given_if(place.space != SpaceChange{}, place.space));
   visit(AnswerField{.name = "begin"}, one.begin);
   visit(AnswerField{.name = "end"}, one.end);
 }
@@ -148,6 +195,7 @@ struct UtteranceAnswer {
   Milliseconds pause_after{0};
   std::vector<HandHold> holds;
   std::vector<NonManual> non_manuals;
+  std::vector<LocusSetup> loci;
   std::optional<std::string> canonical;  ///< none for a text with faults or without a sign
   std::vector<TextFault> faults;
 };
@@ -159,6 +207,7 @@ void fields(Visit& visit, const UtteranceAnswer& answer) {
   visit(AnswerField{.name = "holds", .help = "missing: none"}, given_if(!answer.holds.empty(), answer.holds));
   visit(AnswerField{.name = "non_manuals", .help = "missing: none"},
         given_if(!answer.non_manuals.empty(), answer.non_manuals));
+  visit(AnswerField{.name = "loci", .help = "missing: none"}, given_if(!answer.loci.empty(), answer.loci));
   visit(AnswerField{.name = "canonical", .help = "text that is read as the same utterance; missing with faults"},
         answer.canonical);
   visit(AnswerField{.name = "faults", .help = "the first 20"}, answer.faults);

@@ -27,10 +27,14 @@ bool is_there(const SignRef& sign, const Segments& segments) {
   });
 }
 
-/// True if a place may be one word of a gloss of several: it has neither token, pause nor quotes.
-bool is_word(const Place& place, bool first) {
-  return place.kind == Place::Kind::gloss && place.gloss.token == 0 && place.parts.empty() &&
-         (first || place.pause_before == Milliseconds(0));
+/// True if a place may be one word of a gloss of several: it has neither token, pause nor quotes, and behind the first
+/// nothing in space.
+bool is_word(const Utterance& utterance, std::size_t i, bool first) {
+  const Place& place = utterance.places[i];
+  const bool word = place.kind == Place::Kind::gloss && place.gloss.token == 0 && place.parts.empty();
+  if (!word || first) return word;
+  return place.pause_before == Milliseconds(0) && place.space == SpaceChange{} &&
+         !std::ranges::binary_search(utterance.loci, i, {}, &LocusSetup::from);
 }
 
 /// The longest gloss formed by several places from this one, at least one of which is missing; or none.
@@ -40,7 +44,7 @@ MissingGloss joined_from(const Utterance& utterance, std::size_t place, const st
   std::string words;
   bool missing = false;
   for (std::size_t i = place; i < std::min(place + kMostWordsOfAGloss, utterance.places.size()); ++i) {
-    if (!is_word(utterance.places[i], i == place)) break;
+    if (!is_word(utterance, i, i == place)) break;
     if (i > place) words += ' ';
     words += utterance.places[i].gloss.gloss;
     missing = missing || !there[i];
@@ -135,6 +139,10 @@ Utterance suggestion_for(const Utterance& utterance, const std::vector<MissingGl
     one.first = now_at[one.first];
     one.last = now_at[one.last];
     result.non_manuals.push_back(std::move(one));
+  }
+  for (LocusSetup one : utterance.loci) {
+    one.from = now_at[one.from];
+    result.loci.push_back(std::move(one));
   }
   return result;
 }

@@ -17,6 +17,7 @@
 #include "signweave/choose/on_skeleton.h"
 #include "signweave/choose/open_score.h"
 #include "signweave/choose/part_choice.h"
+#include "signweave/choose/refuse_space.h"
 #include "signweave/core/error.h"
 #include "signweave/database/signer_dominance.h"
 
@@ -300,6 +301,7 @@ void check(const SynthesisOptions& options) {
 Synthesized synthesize(const Database& database, const Utterance& utterance, const SynthesisOptions& options,
                        Synthesis used) {
   const auto start = Clock::now();
+  refuse_space(utterance);
   const Snapshot snapshot = database.snapshot();
   require_glosses(utterance, snapshot.contents().segments);
   const Side dominant = options.handedness.value_or(usual_hand(snapshot, utterance));

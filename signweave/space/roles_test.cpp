@@ -73,8 +73,11 @@ TEST(LocusWords, AreTheUsualOnesAndThoseOfATable) {
 }
 
 std::optional<GlossLoci> usual_loci(std::string_view gloss) {
-  std::vector<LocusPattern> patterns;
-  for (const std::string_view pattern : usual_locus_patterns()) patterns.push_back(locus_pattern(pattern));
+  static const std::vector<LocusPattern> patterns = [] {
+    std::vector<LocusPattern> usual;
+    for (const std::string_view pattern : usual_locus_patterns()) usual.push_back(locus_pattern(pattern));
+    return usual;
+  }();
   return loci_of(gloss, patterns, usual_locus_words());
 }
 

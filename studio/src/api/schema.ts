@@ -808,6 +808,37 @@ export interface components {
       readonly places: number
       readonly signs: readonly components['schemas']['UtteranceSign'][]
     }
+    /** @description where a sign goes, and how its strokes are changed; what is missing is as captured */
+    readonly UtteranceSpace: {
+      /** @description the locus at which it begins, such as left, a, 30/10 or 0.3,0.1,0.8 */
+      readonly from?: string
+      /** @description the locus at which it ends */
+      readonly to?: string
+      /** @description the locus at which it points or is made */
+      readonly at?: string
+      /** @description the loci along which the hand goes */
+      readonly along?: readonly string[]
+      /** @description the locus that the hand passes */
+      readonly past?: string
+      /** @description the hand keeps its orientation on its path */
+      readonly unturned?: boolean
+      /** @description to the left, up, forward */
+      readonly move_cm?: readonly number[]
+      /** @description about the axes left, up, forward */
+      readonly turn_degrees?: readonly number[]
+      /** @description factors along the axes left, up, forward */
+      readonly scale?: readonly number[]
+      /** @description a factor of the whole movement */
+      readonly size?: number
+      /** @description a factor of the speed of its strokes */
+      readonly speed?: number
+      /** @description the times that a stroke is signed */
+      readonly repetitions?: number
+      /** @description repetitions shrink and go outward: a plural */
+      readonly outward?: boolean
+      /** @description left and right are exchanged */
+      readonly mirrored?: boolean
+    }
     readonly UtterancePlace: {
       readonly gloss?: string
       /** @description missing: any */
@@ -828,6 +859,8 @@ export interface components {
       readonly dominant?: 'left' | 'right'
       /** @description missing: none */
       readonly parts?: readonly components['schemas']['UtterancePart'][]
+      /** @description missing: as captured */
+      readonly space?: components['schemas']['UtteranceSpace']
       readonly begin: number
       readonly end: number
     }
@@ -844,7 +877,7 @@ export interface components {
     readonly UtteranceNonManual: {
       /** @enum {string} */
       readonly kind: 'expression' | 'mouthing' | 'gaze'
-      /** @description the expression, the text to be mouthed, or the direction */
+      /** @description the expression, the text to be mouthed, or the direction or locus */
       readonly what: string
       /** @description the place, from 0 */
       readonly first: number
@@ -854,6 +887,14 @@ export interface components {
       readonly begin_ms: number
       /** @description added to its usual end */
       readonly end_ms: number
+    }
+    /** @description a locus that is set up at a place */
+    readonly UtteranceLocus: {
+      readonly name: string
+      /** @description the locus that it is, such as left or 30/10 */
+      readonly is: string
+      /** @description the place from which on it is there, from 0 */
+      readonly from: number
     }
     readonly UtteranceFault: {
       /** @enum {string} */
@@ -878,6 +919,9 @@ export interface components {
         | 'nothing_to_hold'
         | 'no_such_place'
         | 'long_mouthing'
+        | 'bad_locus'
+        | 'unknown_locus'
+        | 'repeated_option'
       readonly message: string
       readonly line: number
       readonly column: number
@@ -898,6 +942,8 @@ export interface components {
       readonly holds?: readonly components['schemas']['UtteranceHold'][]
       /** @description missing: none */
       readonly non_manuals?: readonly components['schemas']['UtteranceNonManual'][]
+      /** @description missing: none */
+      readonly loci?: readonly components['schemas']['UtteranceLocus'][]
       /** @description text that is read as the same utterance; missing with faults */
       readonly canonical?: string
       /** @description the first 20 */
@@ -1275,9 +1321,11 @@ export type Score = components['schemas']['Score']
 export type UtteranceSync = components['schemas']['UtteranceSync']
 export type UtteranceSign = components['schemas']['UtteranceSign']
 export type UtterancePart = components['schemas']['UtterancePart']
+export type UtteranceSpace = components['schemas']['UtteranceSpace']
 export type UtterancePlace = components['schemas']['UtterancePlace']
 export type UtteranceHold = components['schemas']['UtteranceHold']
 export type UtteranceNonManual = components['schemas']['UtteranceNonManual']
+export type UtteranceLocus = components['schemas']['UtteranceLocus']
 export type UtteranceFault = components['schemas']['UtteranceFault']
 export type UtteranceText = components['schemas']['UtteranceText']
 export type Removed = components['schemas']['Removed']

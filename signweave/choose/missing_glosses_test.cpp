@@ -101,5 +101,16 @@ TEST(MissingGlosses, AreFoldedIfExactlyOneGlossMatches) {
   EXPECT_THAT(notices, IsEmpty());
 }
 
+TEST(MissingGlosses, LociStayAtTheirPlaces) {
+  std::vector<Notice> notices;
+  const auto folded = [&](const char* text) {
+    return to_string(with_folded_glosses(parse_utterance(text), corpus(), notices));
+  };
+  EXPECT_EQ(folded("le{@a = @left; to @a} mans matin{@b = @a; to @b}"),
+            "\"LE MANS\"{@a = @left; to @a} MATIN{@b = @a; to @b}");
+  EXPECT_THROW(folded("le mans{to @left}"), MissingGlosses) << "a changed place is not the end of another gloss";
+  EXPECT_THROW(folded("le mans{@a = @left}"), MissingGlosses);
+}
+
 }  // namespace
 }  // namespace signweave

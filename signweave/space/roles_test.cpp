@@ -73,8 +73,11 @@ TEST(LocusWords, AreTheUsualOnesAndThoseOfATable) {
 }
 
 std::optional<GlossLoci> usual_loci(std::string_view gloss) {
-  std::vector<LocusPattern> patterns;
-  for (const std::string_view pattern : usual_locus_patterns()) patterns.push_back(locus_pattern(pattern));
+  static const std::vector<LocusPattern> patterns = [] {
+    std::vector<LocusPattern> usual;
+    for (const std::string_view pattern : usual_locus_patterns()) usual.push_back(locus_pattern(pattern));
+    return usual;
+  }();
   return loci_of(gloss, patterns, usual_locus_words());
 }
 
@@ -89,7 +92,7 @@ TEST(LocusPattern, ReadsTheConventionsOfCorpora) {
   EXPECT_EQ(usual_loci("3aGIVE3b"), loci("GIVE", "left", "right", ""));
   EXPECT_EQ(usual_loci("INDEX_left"), loci("INDEX", "", "", "left"));
   EXPECT_EQ(usual_loci("IX-3a"), loci("IX", "", "", "left"));
-  for (const char* plain : {"GIVE", "FAX-ON", "FAX-ON-NOW", "INDEX_x", "A1", "1A", "", "IX-"}) {
+  for (const char* plain : {"GIVE", "FAX-ON", "FAX-ON-NOW", "GIVE-1-NOW", "INDEX_x", "A1", "1A", "", "IX-"}) {
     EXPECT_FALSE(usual_loci(plain)) << plain;
   }
 }
@@ -106,6 +109,8 @@ TEST(LocusPattern, IsTheUsersOwn) {
             "A");
   EXPECT_EQ(read->to, read_locus("left"));
   EXPECT_FALSE(read->from);
+  const std::vector<LocusPattern> bracket = {locus_pattern(R"(\(?<(?<to>.*))")};
+  EXPECT_TRUE(loci_of("(<1", bracket, usual_locus_words())) << "a bracket that is escaped begins no group";
   const std::vector<LocusPattern> whole = {locus_pattern("PT:(?<at>.*)")};
   EXPECT_EQ(loci_of("PT:1", whole, usual_locus_words())->gloss, "PT:1") << "without a group for it";
 }

@@ -55,6 +55,8 @@ it('tells texts that give parts something of their own, and refuses them where s
   expect(await code({ non_manuals: [{ kind: 'gaze', what: 'left', first: 0, last: 0, begin_ms: 0, end_ms: 0 }] })).toBe('text_with_parts')
   expect(await code({ places: [{ ...place, dominant: 'left' }] })).toBe('text_with_parts')
   expect(await code({ places: [{ ...place, parts: [{ part: 'weak', places: 1, signs: [{ gloss: 'B' }] }] }] })).toBe('text_with_parts')
+  expect(await code({ places: [{ ...place, space: { to: 'left' } }] })).toBe('text_with_parts')
+  expect(await code({ loci: [{ name: 'a', is: 'left', from: 0 }] })).toBe('text_with_parts')
   const read = readerOf(() => Promise.resolve({ places: [{ ...place, dominant: 'left' }], faults: [] }))
   expect(await read(' A{dominant left} ')).toMatchObject({ text: 'A{dominant left}', places: [{ gloss: 'A' }] })
 })

@@ -25,7 +25,7 @@ export class UtteranceFault extends Error {
 /** The content of a text. */
 export interface Reading {
   /** Of the whole body. */ readonly places: readonly Place[]
-  /** The text, if it also gives parts of the signer something of their own. */ readonly text?: string
+  /** The text, if it also gives parts of the signer something of their own, or changes signs in space. */ readonly text?: string
   /** The pause after the last place. */ readonly pause: Pause
 }
 /** Reads the text of an utterance; throws UtteranceFault, or what the call throws. */
@@ -45,9 +45,9 @@ const kWithParts: UtteranceFaultRow = {
 export function readerOf(ask: (text: string, signal?: AbortSignal) => Promise<UtteranceText>): ReadText {
   return async (text, signal) => {
     if (text.trim() === '') return { places: [], pause: 'none' }
-    const { places, pause, faults, holds, non_manuals } = await ask(text, signal)
+    const { places, pause, faults, holds, non_manuals, loci } = await ask(text, signal)
     if (faults.length > 0) throw new UtteranceFault(text, faults[0])
-    const hasParts = (holds ?? non_manuals ?? places.find(({ parts, dominant }) => parts ?? dominant)) !== undefined
+    const hasParts = (holds ?? non_manuals ?? loci ?? places.find(({ parts, dominant, space }) => parts ?? dominant ?? space)) !== undefined
     return { places: places.map(placeOf), pause: pause ?? 'none', ...(hasParts && { text: text.trim() }) }
   }
 }

@@ -53,9 +53,10 @@ float rising(float value, float middle, float width) {
   return 1 / (1 + std::exp((middle - value) / width));
 }
 
-/// Keeps a palm in front of the body, smoothly; beside it, on the hand's own side, the palm may be farther back.
-Vector3f in_front(Vector3f place) {
-  const float nearest = kNearest * (1 - 0.85f * rising(-place.x(), 0.30f, 0.04f));
+/// Keeps a palm in front of the body, smoothly; beside it, on the hand's own side, the palm may be farther back by that
+/// share of the distance.
+Vector3f in_front(Vector3f place, float back_beside = 0.45f) {
+  const float nearest = kNearest * (1 - back_beside * rising(-place.x(), 0.30f, 0.04f));
   place.z() = nearest + kSoft * std::log1p(std::exp((place.z() - nearest) / kSoft));
   return place;
 }
@@ -90,7 +91,7 @@ float azimuth_from_shoulder(const Vector3f& place) {
 /// The elbow rises when the hand crosses to the other side, or goes far to its own.
 float swivel_at(const Vector3f& palm) {
   const float azimuth = azimuth_from_shoulder(palm) / kDegree;
-  return 0.10f + 0.45f * rising(azimuth, 5, 14) + 0.50f * rising(-azimuth, 40, 10);
+  return 0.10f + 0.45f * rising(azimuth, 5, 14) + 0.18f * rising(-azimuth, 40, 10);
 }
 
 /// Yaw of a hand that moves into a direction: a right hand turns far to the left, little to the right, and aside when
@@ -181,7 +182,7 @@ AimedHand hand_pointing(const AimedSign& sign, const Locus& locus, float done) {
   // The tip stays in front of the locus; a preparation draws the hand back.
   const float reach = saturated(line.norm() - 0.13f, kReach) * (0.90f + 0.10f * done);
   AimedHand hand;
-  hand.palm = in_front(kShoulder + reach * line.normalized() - 0.6f * kDrop * Vector3f::UnitY());
+  hand.palm = in_front(kShoulder + reach * line.normalized() - 0.6f * kDrop * Vector3f::UnitY(), 0.9f);
   const float swivel = swivel_at(hand.palm);
   Vector3f direction = (target - hand.palm).normalized();
   hand.hand = hand_of(sign.palm, direction);

@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "demo/arm.h"
 #include "demo/corpus.h"
 #include "demo/handshapes.h"
 
@@ -91,6 +92,10 @@ struct AimedHand {
 };
 /// The law: where a hand is when a fraction of the stroke is done, without noise. For a side that acts.
 AimedHand aimed_hand(const Aimed& aimed, Side side, float done);
+/// The wrist of a hand in an arm whose shoulder is half a shoulder width from the middle; not limited.
+WristAngles wrist_of(const AimedHand& hand, Side side);
+/// A hand with the same palm whose wrist has those angles; its own orientation is the first guess.
+AimedHand with_wrist(const AimedHand& hand, const WristAngles& angles, Side side);
 /// Yaw of the chest in the same moment; positive to the signer's left.
 float aimed_yaw(const Aimed& aimed, float done);
 

@@ -186,7 +186,7 @@ AimedHand hand_pointing(const AimedSign& sign, const Locus& locus, float done) {
   const float swivel = swivel_at(hand.palm);
   Vector3f direction = (target - hand.palm).normalized();
   hand.hand = hand_of(sign.palm, direction);
-  for (int round = 0; round < 8; ++round) {  // the knuckle, from which the finger points, turns with the hand
+  for (int round = 0; round < 12; ++round) {  // the knuckle, from which the finger points, turns with the hand
     // The palm faces to the side to which the wrist bends.
     const Vector3f bend = direction - fore_arm_of(hand.palm, hand.hand, swivel);
     const Quaternionf base =
@@ -399,6 +399,28 @@ AimedHand aimed_hand(const Aimed& aimed, Side side, float done) {
   hand.swivel = swivel_at(hand.palm);
   hand.hand = comfortable(hand.palm, hand.hand, hand.swivel);
   return in_mirror(hand);
+}
+
+WristAngles wrist_of(const AimedHand& hand, Side side) {
+  const AimedHand left = side == Side::left ? hand : in_mirror(hand);
+  const Quaternionf turned = left.hand * hand_from_wrist();
+  const Vector3f wrist = left.palm - left.hand * in_mirror(palm_from_wrist());
+  const WristAngles elbow{.swivel = hand.swivel};
+  const Quaternionf fore_arm = solve_arm(in_mirror(kShoulder), wrist, arm_sizes(), elbow).fore_arm;
+  WristAngles angles = wrist_angles(fore_arm.conjugate() * turned);
+  angles.swivel = hand.swivel;
+  return angles;
+}
+
+AimedHand with_wrist(const AimedHand& hand, const WristAngles& angles, Side side) {
+  AimedHand left = side == Side::left ? hand : in_mirror(hand);
+  for (int round = 0; round < 5; ++round) {  // the wrist turns about the palm, and the forearm goes with it
+    const Vector3f wrist = left.palm - left.hand * in_mirror(palm_from_wrist());
+    const Quaternionf turned = solve_arm(in_mirror(kShoulder), wrist, arm_sizes(), angles).hand;
+    left.hand = (turned * hand_from_wrist().conjugate()).normalized();
+  }
+  left.swivel = angles.swivel;
+  return side == Side::left ? left : in_mirror(left);
 }
 
 float aimed_yaw(const Aimed& aimed, float done) {

@@ -45,15 +45,22 @@ AimedHand rest_of(Rest rest) {
           .swivel = angles.swivel};
 }
 
-AimedHand between(const AimedHand& from, const AimedHand& to, float done) {
+WristAngles between(const WristAngles& from, const WristAngles& to, float done) {
+  return {.twist = from.twist + done * (to.twist - from.twist),
+          .flexion = from.flexion + done * (to.flexion - from.flexion),
+          .radial = from.radial + done * (to.radial - from.radial),
+          .swivel = from.swivel + done * (to.swivel - from.swivel)};
+}
+
+AimedHand between(const AimedHand& from, const AimedHand& to, Side side, float done) {
   AimedHand hand;
   const Vector3f line = to.palm - from.palm;
   hand.palm = from.palm + done * line;
   // Around the body, as HandPlan's movements; 0 at both ends.
   hand.palm.z() += 4 * done * (1 - done) * 0.12f * line.norm();
+  // In the angles of the wrist: the shortest way between two orientations may be one that a forearm cannot turn.
   hand.hand = from.hand.slerp(done, to.hand);
-  hand.swivel = from.swivel + done * (to.swivel - from.swivel);
-  return hand;
+  return with_wrist(hand, between(wrist_of(from, side), wrist_of(to, side), done), side);
 }
 
 }  // namespace
@@ -125,7 +132,7 @@ SpacePlan::Posture SpacePlan::posture(const End& end, Side side, float done) con
 AimedHand SpacePlan::hand_in(const Piece& piece, Side side, float done) const {
   if (piece.is_stroke()) return noisy_hand(*piece.from.sign, side, done);
   return between(posture(piece.from, side, static_cast<float>(piece.from.stroke)).hand,
-                 posture(piece.to, side, static_cast<float>(piece.to.stroke)).hand, done);
+                 posture(piece.to, side, static_cast<float>(piece.to.stroke)).hand, side, done);
 }
 
 SignerHand SpacePlan::at(Side side, double frame) const {
@@ -150,6 +157,7 @@ SignerHand SpacePlan::at(Side side, double frame) const {
     const auto bend = static_cast<float>(static_cast<double>(noise_) * 0.6 * unrest.fingers[finger].at(seconds));
     wanted.fingers[finger][finger == 0 ? 2 : 0] += bend;
     wanted.fingers[finger][finger == 0 ? 3 : 1] += 0.6f * bend;
+    wanted.fingers[finger][finger == 0 ? 0 : 2] += 0.3f * bend;
     for (std::size_t i = 0; i < kFingerAngles; ++i) {
       const AngleLimits limits = limits_of(static_cast<int>(finger), static_cast<int>(i));
       wanted.fingers[finger][i] = std::clamp(wanted.fingers[finger][i], limits.least, limits.most);

@@ -1,7 +1,10 @@
 #include <fmt/format.h>
 
+#include <array>
+#include <cmath>
 #include <iterator>
 #include <numbers>
+#include <vector>
 
 #include "demo/animate.h"
 #include "demo/space.h"
@@ -114,8 +117,17 @@ SyntheticRecording make_space(const SpaceScript& script, FrameRate rate, std::ui
   SyntheticRecording recording;
   recording.name = script.name;
   recording.timeline = plain_timeline(timeline);
+  std::array<std::vector<SignerHand>, 2> hands;  // [side][frame]: each is needed several times
+  for (const Side side : kSides) {
+    for (std::int64_t frame = 0; frame < timeline.frames; ++frame) {
+      hands[static_cast<std::size_t>(side)].push_back(plan.at(side, static_cast<double>(frame)));
+    }
+  }
+  const auto hand = [&](Side side, double frame) {
+    return hands[static_cast<std::size_t>(side)][static_cast<std::size_t>(std::llround(frame))];
+  };
   const auto wrist = [&](Side side, double frame) {
-    return Vector3f(plan.at(side, frame).palm + to_model(Vector3f::Zero(), Side::left));
+    return Vector3f(hand(side, frame).palm + to_model(Vector3f::Zero(), Side::left));
   };
   std::vector<BodyFrame> body = move_body(recording.timeline, wrist, random);
   for (std::size_t i = 0; i < body.size(); ++i) {
@@ -124,8 +136,7 @@ SyntheticRecording make_space(const SpaceScript& script, FrameRate rate, std::ui
     body[i].yaw = yaw - body[i].hips_yaw;
   }
   FaceMotion face = face_of(recording.timeline, random);
-  const auto hands = [&](Side side, double frame) { return plan.at(side, frame); };
-  recording.motion = animate(signer, rate, std::move(body), std::move(face), touches, hands, random);
+  recording.motion = animate(signer, rate, std::move(body), std::move(face), touches, hand, random);
   recording.document = annotation(script, timeline);
   recording.truth = truth_of(timeline, plan, signer, recording.motion);
   recording.space = space_truth(timeline);

@@ -122,7 +122,7 @@ TEST(SpaceRecordings, FollowTheLawAndTheNoiseOfTheirTables) {
     for (const Compared& one : compare(made(name))) {
       const bool pair = one.what.starts_with("AIDER left");  // turns about the right palm
       EXPECT_LT((one.off - one.shift).norm(), pair ? 0.02f : 0.007f) << one.what;
-      EXPECT_LT(kDegrees * one.turned.angularDistance(one.turn), 3.0) << one.what;
+      EXPECT_LT(kDegrees * one.turned.angularDistance(one.turn), 4.0) << one.what;  // a wrist at its limit
     }
   }
 }

@@ -19,9 +19,8 @@ using Eigen::Vector3f;
 /// Fills the frames of one motion in order.
 class Animator {
  public:
-  Animator(const Signer& signer, FrameRate rate, std::vector<BodyFrame> body, FaceMotion face, const HandPlan& plan,
-           Random& random)
-      : signer_(signer), body_(std::move(body)), face_(std::move(face)), arms_(signer, plan, rate.hertz(), random) {}
+  Animator(const Signer& signer, std::vector<BodyFrame> body, FaceMotion face, Arms arms)
+      : signer_(signer), body_(std::move(body)), face_(std::move(face)), arms_(std::move(arms)) {}
 
   /// Must be called for every frame, in order, before any is filled. Overwrites `pose`.
   void look_ahead(std::int64_t frame, MutablePoseView pose) {
@@ -129,18 +128,9 @@ class Animator {
   ModelPose model_;  ///< of the frame being filled; valid for trunk, head and hips only
 };
 
-}  // namespace
-
-Motion animate(const Signer& signer, const Timeline& timeline, const HandPlan& plan, Random& random) {
-  std::vector<BodyFrame> body = move_body(timeline, plan, random);
-  FaceMotion face = face_of(timeline, random);
-  return animate(signer, timeline.rate, std::move(body), std::move(face), plan, random);
-}
-
-Motion animate(const Signer& signer, FrameRate rate, std::vector<BodyFrame> body, FaceMotion face, const HandPlan& plan,
-               Random& random) {
+Motion animated(const Signer& signer, FrameRate rate, std::vector<BodyFrame> body, FaceMotion face, Arms arms) {
   const auto frames = static_cast<std::int64_t>(body.size());
-  Animator animator(signer, rate, std::move(body), std::move(face), plan, random);
+  Animator animator(signer, std::move(body), std::move(face), std::move(arms));
   Motion motion(signer.skeleton, rate, frames);
   for (std::int64_t frame = 0; frame < frames; ++frame) animator.look_ahead(frame, motion.pose(frame));
   animator.yield_smoothly();
@@ -151,6 +141,25 @@ Motion animate(const Signer& signer, FrameRate rate, std::vector<BodyFrame> body
     motion.add_track({std::string(name_of(static_cast<FaceTrack>(i))), std::move(shown.tracks[i])});
   }
   return motion;
+}
+
+}  // namespace
+
+Motion animate(const Signer& signer, const Timeline& timeline, const HandPlan& plan, Random& random) {
+  std::vector<BodyFrame> body = move_body(timeline, plan, random);
+  FaceMotion face = face_of(timeline, random);
+  return animate(signer, timeline.rate, std::move(body), std::move(face), plan, random);
+}
+
+Motion animate(const Signer& signer, FrameRate rate, std::vector<BodyFrame> body, FaceMotion face, const HandPlan& plan,
+               Random& random) {
+  return animated(signer, rate, std::move(body), std::move(face), Arms(signer, plan, rate.hertz(), random));
+}
+
+Motion animate(const Signer& signer, FrameRate rate, std::vector<BodyFrame> body, FaceMotion face, const HandPlan& plan,
+               SignerHands hands, Random& random) {
+  return animated(signer, rate, std::move(body), std::move(face),
+                  Arms(signer, plan, std::move(hands), rate.hertz(), random));
 }
 
 }  // namespace signweave::demo

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "demo/arms.h"
 #include "demo/body.h"
 #include "demo/face.h"
 #include "demo/plan.h"
@@ -16,5 +17,9 @@ Motion animate(const Signer& signer, const Timeline& timeline, const HandPlan& p
 /// The same with a given body and face, which have one frame each for every frame of the motion.
 Motion animate(const Signer& signer, FrameRate rate, std::vector<BodyFrame> body, FaceMotion face, const HandPlan& plan,
                Random& random);
+
+/// The same with hands that are wanted in signer-centred space; `plan` only says what they touch.
+Motion animate(const Signer& signer, FrameRate rate, std::vector<BodyFrame> body, FaceMotion face, const HandPlan& plan,
+               SignerHands hands, Random& random);
 
 }  // namespace signweave::demo

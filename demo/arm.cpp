@@ -77,6 +77,16 @@ ArmPose solve_arm(const Vector3f& shoulder, const Vector3f& wrist, ArmSizes size
   return pose;
 }
 
+WristAngles wrist_angles(const Quaternionf& turn) {
+  // turn = twist about x, then a swing without twist: its x is 0.
+  float twist = 2 * std::atan2(turn.x(), turn.w());
+  const float full = 2 * std::numbers::pi_v<float>;
+  twist -= full * std::round((twist - kMiddleTwist) / full);
+  AngleAxisf swing(forearm_twist(twist).conjugate() * turn);
+  const Vector3f vector = swing.angle() * swing.axis();
+  return {.twist = twist, .flexion = -vector.z(), .radial = -vector.y()};
+}
+
 WristAngles comfortable_wrist(const Vector3f& shoulder, const Vector3f& wrist, ArmSizes sizes, const Vector3f& palm,
                               const Vector3f& fingers, float swivel) {
   Matrix3f axes;  // the hand in the rest pose: fingers along x, palm towards −y
@@ -90,18 +100,12 @@ WristAngles comfortable_wrist(const Vector3f& shoulder, const Vector3f& wrist, A
   for (int degrees = -5; degrees <= 60; ++degrees) {
     WristAngles angles{.swivel = radians(static_cast<float>(degrees))};
     const Quaternionf turn = solve_arm(shoulder, wrist, sizes, angles).fore_arm.conjugate() * hand;
-    // turn = twist about x, then a swing without twist: its x is 0.
-    float twist = 2 * std::atan2(turn.x(), turn.w());
-    const float full = 2 * std::numbers::pi_v<float>;
-    twist -= full * std::round((twist - kMiddleTwist) / full);
-    AngleAxisf swing(forearm_twist(twist).conjugate() * turn);
-    const Vector3f vector = swing.angle() * swing.axis();
-    angles.twist = twist;
-    angles.radial = -vector.y();
-    angles.flexion = -vector.z();
+    const float tried = angles.swivel;
+    angles = wrist_angles(turn);
+    angles.swivel = tried;
     const auto square = [](float value) { return value * value; };
     const float cost =
-        square(excess(twist - kMiddleTwist, radians(55))) * 2 + square(excess(angles.flexion, radians(35))) +
+        square(excess(angles.twist - kMiddleTwist, radians(55))) * 2 + square(excess(angles.flexion, radians(35))) +
         square(excess(angles.radial + radians(8), radians(18))) * 2 + 0.7f * square(angles.swivel - swivel);
     if (cost < least) {
       least = cost;

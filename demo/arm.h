@@ -44,6 +44,10 @@ ArmPose solve_arm(const Eigen::Vector3f& shoulder, const Eigen::Vector3f& wrist,
 
 inline constexpr float kNaturalSwivel = 0.2f;  ///< radians: the elbow slightly away from the body
 
+/// The twist, flexion and radial deviation that bring a hand at a forearm without twist (solve_arm with `twist` 0) to
+/// `fore_arm` * `turn`; `swivel` is 0. Not limited.
+WristAngles wrist_angles(const Eigen::Quaternionf& turn);
+
 /// The nearest angles within joint limits: forearm 90° to palm up and 85° to palm down, wrist 70° of flexion and of
 /// extension, 25° to the thumb, 40° away from it.
 WristAngles limited(WristAngles angles);

@@ -85,9 +85,18 @@ Arms::Arms(const Signer& signer, const HandPlan& plan, double frames_per_second,
   shoulder_ = signer.rest_position(signer.left.arm);
 }
 
+Arms::Arms(const Signer& signer, const HandPlan& plan, SignerHands hands, double frames_per_second, Random& random)
+    : Arms(signer, plan, frames_per_second, random) {
+  hands_ = std::move(hands);
+}
+
+Arms::Limbs Arms::planned_limbs(double frame, const Trunk& trunk) {
+  if (hands_) return wanted_limbs(frame, trunk);
+  return {planned_limb(Side::left, frame, trunk), planned_limb(Side::right, frame, trunk)};
+}
+
 void Arms::look_ahead(std::int64_t frame, const Trunk& trunk) {
-  const auto at = static_cast<double>(frame);
-  Limbs limbs = {planned_limb(Side::left, at, trunk), planned_limb(Side::right, at, trunk)};
+  Limbs limbs = planned_limbs(static_cast<double>(frame), trunk);
   const Vector3f before[] = {limbs[0].wrist, limbs[1].wrist};
   yield(limbs, trunk);
   for (std::size_t side = 0; side < 2; ++side) yielded_[side].push_back(limbs[side].wrist - before[side]);
@@ -103,8 +112,9 @@ void Arms::yield_smoothly() {
 }
 
 void Arms::fill(std::int64_t frame, const Trunk& trunk, MutablePoseView pose) {
+  Limbs limbs = planned_limbs(static_cast<double>(frame), trunk);
   for (const Side side : kSides) {
-    Limb limb = planned_limb(side, static_cast<double>(frame), trunk);
+    Limb& limb = limbs[static_cast<std::size_t>(side)];
     const Vector3f& away = yielded_[static_cast<std::size_t>(side)][static_cast<std::size_t>(frame)];
     if (away != Vector3f::Zero()) {
       limb.wrist += away;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <map>
 #include <tuple>
 #include <vector>
@@ -21,7 +22,21 @@ struct Trunk {
 
 // The places of the body that fingertips touch, as offsets in the space of a joint, metres.
 inline const Eigen::Vector3f kChinFromJaw(0, -0.018f, 0.040f);     ///< of the jaw
+inline const Eigen::Vector3f kMouthFromHead(0, 0.025f, 0.107f);    ///< of the head
 inline const Eigen::Vector3f kChestFromSpine2(0, 0.060f, 0.130f);  ///< of the upper chest
+
+/// Where a hand is wanted in signer-centred space, instead of by a plan.
+struct SignerHand {
+  Eigen::Vector3f palm;     ///< its centre, metres from between the shoulders, signer's axes
+  Eigen::Quaternionf hand;  ///< turns a hand with fingers forward and palm down; signer's axes
+  float swivel = 0;         ///< of the elbow
+  HandAngles fingers{};
+};
+/// For any side and frame.
+using SignerHands = std::function<SignerHand(Side side, double frame)>;
+
+/// From the axes of the left wrist to those in which the fingers point forward and the palm faces down.
+Eigen::Quaternionf hand_from_wrist();
 
 /// Idle motion of one arm: a slow drift of about a millimetre, and a finer, faster tremor.
 struct ArmIdleMotion {
@@ -35,6 +50,9 @@ class Arms {
  public:
   /// Borrows signer and plan.
   Arms(const Signer& signer, const HandPlan& plan, double frames_per_second, Random& random);
+  /// The hands go where `hands` wants them, in the space of the shoulders as they are; `plan` only says what they
+  /// touch. Without idle motion.
+  Arms(const Signer& signer, const HandPlan& plan, SignerHands hands, double frames_per_second, Random& random);
 
   /// Finds where the hands would collide with each other, the head or the trunk in the next frame.
   void look_ahead(std::int64_t frame, const Trunk& trunk);
@@ -79,6 +97,10 @@ class Arms {
   std::vector<Eigen::Vector3f> hand_points(const ArmPose& arm, const FingerRotations& fingers, Side side) const;
   void pose_limb(Limb& limb, Side side, const Trunk& trunk) const;
   Limb planned_limb(Side side, double frame, const Trunk& trunk);
+  Limbs planned_limbs(double frame, const Trunk& trunk);
+  // Hands that are wanted in signer-centred space (arms_space.cpp).
+  Limbs wanted_limbs(double frame, const Trunk& trunk) const;
+  void aim_limb(Limb& limb, const SignerHand& wanted, Side side, const Eigen::Vector3f& origin, float yaw) const;
   void yield(Limbs& limbs, const Trunk& trunk) const;
   void stay_outside(Limb& limb, Side side, const Trunk& trunk) const;
   void write_limb(const Limb& limb, Side side, MutablePoseView pose) const;
@@ -93,6 +115,7 @@ class Arms {
 
   const Signer& signer_;
   const HandPlan& plan_;
+  SignerHands hands_;  ///< empty: as planned
   double fps_;
   ArmIdleMotion idle_motion_[2];  ///< [side]
   ArmSizes sizes_{};

@@ -123,6 +123,9 @@ Vector3f Arms::touched_place(const HandPlan::Touch& touch, const Vector3f& tip, 
   if (touch.what == HandPlan::Touchable::chest) {
     return place(signer_.spine2) + rotation(signer_.spine2) * (kChestFromSpine2 + Vector3f(0, 0, kToSkin));
   }
+  if (touch.what == HandPlan::Touchable::mouth) {
+    return place(signer_.head) + rotation(signer_.head) * (kMouthFromHead + Vector3f(0, 0, kToSkin));
+  }
   const Side other = touch.side == Side::left ? Side::right : Side::left;
   const auto finger = static_cast<std::size_t>(touch.other_finger);
   const auto joint = static_cast<std::size_t>(signer_.side(other).fingers[finger].back());

@@ -96,6 +96,11 @@ struct Gesture {
 }  // namespace
 
 std::vector<BodyFrame> move_body(const Timeline& timeline, const HandPlan& plan, Random& random) {
+  return move_body(
+      timeline, [&](Side side, double frame) { return plan.at(side, frame); }, random);
+}
+
+std::vector<BodyFrame> move_body(const Timeline& timeline, const WristPath& wrist, Random& random) {
   const double fps = timeline.rate.hertz();
   const double seconds_of_frame = 1 / fps;
 
@@ -141,8 +146,8 @@ std::vector<BodyFrame> move_body(const Timeline& timeline, const HandPlan& plan,
     while (stance + 1 < stances.size() && stances[stance + 1].from <= at) ++stance;
     while (look + 1 < looks.size() && looks[look + 1].from <= at) ++look;
     while (gesture < gestures.size() && gestures[gesture].end + 2 * fps < at) ++gesture;
-    const Vector3f right = plan.at(Side::right, at);
-    const Vector3f left = plan.at(Side::left, at);
+    const Vector3f right = wrist(Side::right, at);
+    const Vector3f left = wrist(Side::left, at);
     BodyFrame& body = frames[i];
     body.breath = std::sin(2 * std::numbers::pi * breath * seconds);
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "demo/plan.h"
@@ -20,5 +21,8 @@ struct BodyFrame {
 /// The body of a recording, [frame]: the trunk follows the hands with a lag and shifts its weight between sentences;
 /// the eyes jump to the hands or the viewer, and the head follows them and nods at the end of a sentence.
 std::vector<BodyFrame> move_body(const Timeline& timeline, const HandPlan& plan, Random& random);
+/// The same for wrists given by a function: metres, model space.
+using WristPath = std::function<Eigen::Vector3f(Side side, double frame)>;
+std::vector<BodyFrame> move_body(const Timeline& timeline, const WristPath& wrist, Random& random);
 
 }  // namespace signweave::demo

@@ -16,6 +16,7 @@ struct SyntheticRecording {
   AnnotationDocument document;  ///< tier "Gloss" and its child "Phase" (time subdivision), participant "synthetic"
   Timeline timeline;
   std::string truth;  ///< CSV with a header: gloss,phase,begin_ms,end_ms,hand,x,y,z,handshape,size; see make_recording
+  std::string space;  ///< CSV of what signs are aimed at (space.h); empty for recordings without such signs
 };
 
 /// The signs of a recording at their times, and their annotation.

@@ -11,6 +11,7 @@
 #include "demo/channels.h"
 #include "demo/corpus.h"
 #include "demo/sheets.h"
+#include "demo/space.h"
 #include "signweave/core/atomic_file.h"
 #include "signweave/core/error.h"
 #include "signweave/formats/bvh/bvh.h"
@@ -32,6 +33,7 @@ struct CorpusOptions {
   std::uint64_t seed = 1;
   double minutes = 44;
   bool channels = false;
+  bool space = false;
   bool sheets = false;
 };
 
@@ -40,6 +42,7 @@ void write_recording(const std::filesystem::path& folder, const demo::SyntheticR
   bvh::write(path(".bvh"), recording.motion, bvh::default_layout(recording.motion.skeleton()));
   eaf::write(path(".eaf"), recording.document);
   write_file(path(".truth.csv"), recording.truth);
+  if (!recording.space.empty()) write_file(path(".space.csv"), recording.space);
   if (!recording.motion.tracks().empty()) write_file(path(".face.csv"), face_csv::write_text(recording.motion));
   if (sheets) {
     write_file(path(".svg"), demo::stroke_sheet(recording));
@@ -63,7 +66,11 @@ void write_corpus(const std::filesystem::path& folder, const CorpusOptions& opti
     seconds += recording.motion.duration().count();
     ++count;
   };
-  if (options.channels) {
+  if (options.space) {
+    for (const demo::SpaceScript& script : {demo::espace_index(), demo::espace_verbes(1), demo::espace_verbes(2)}) {
+      write(demo::make_space(script, options.rate, options.seed));
+    }
+  } else if (options.channels) {
     for (const demo::ChannelScript& script : {demo::mains(), demo::visage()}) {
       write(demo::make_channels(script, options.rate, options.seed));
     }
@@ -97,6 +104,11 @@ int main(int argc, char** argv) {
       "--channels", options.channels,
       "write the two recordings mains and visage instead, in which hands, mouth, brows, head and gaze have times "
       "of their own");
+  app.add_flag(
+         "--space", options.space,
+         "write the recordings espace_index, espace_verbes_1 and espace_verbes_2 instead, whose signs are aimed at "
+         "places in the signing space")
+      ->excludes("--channels");
   app.add_flag(
       "--sheets", options.sheets,
       "also write contact sheets (.svg): every stroke, a sentence from the front and from the side, handshapes");

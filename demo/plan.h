@@ -42,7 +42,7 @@ class HandPlan {
     double begin = 0, end = 0;
   };
   /// What a fingertip can touch.
-  enum class Touchable { chin, chest, fingertip };
+  enum class Touchable { chin, chest, fingertip, mouth };
   /// A time in which a fingertip touches something. Frames.
   struct Touch {
     double begin = 0, end = 0;

@@ -86,7 +86,7 @@ PlaceStats stats_of(std::span<const Place> places, const SignerBody& body) {
 }
 
 /// The hand that goes the longer way in most tokens; of equally many, the right one.
-Side moving_hand(std::span<const PlacedToken* const> tokens) {
+Side hand_that_goes(std::span<const PlacedToken* const> tokens) {
   std::array<std::size_t, 2> longer{};
   const auto path = [](const std::optional<PalmStroke>& palm) { return palm ? palm->path : -1.0f; };
   for (const PlacedToken* token : tokens) ++longer[path(token->palms[1]) >= path(token->palms[0]) ? 1 : 0];
@@ -107,7 +107,7 @@ Heading heading_of(std::span<const Place> begins, std::span<const Place> ends) {
 std::optional<GlossLoci> loci_of(std::span<const PlacedToken* const> tokens, const SignerBody& body) {
   GlossLoci loci;
   loci.gloss = tokens.front()->gloss;
-  const Side moving = moving_hand(tokens);
+  const Side moving = hand_that_goes(tokens);
   const bool annotated = std::ranges::any_of(tokens, [](const PlacedToken* token) { return !token->inferred; });
   std::vector<Place> begins, ends;
   std::array<std::size_t, 2> hands{};

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <memory>
 #include <pugixml.hpp>
 
 #include "signweave/core/error.h"
@@ -85,7 +86,8 @@ TEST(DrawLoci, AFarLocusIsAtTheEdgeAndDoesNotShrinkTheFigure) {
 }
 
 TEST(DrawLoci, ASheetWithoutShouldersHasNoPlaceForThem) {
-  const Motion motion(Skeleton({{.name = "root", .parent = kNoJoint, .offset = Vector3f::Zero()}}), {60, 1}, 1);
+  const std::vector<Joint> joints = {{.name = "root", .parent = kNoJoint}};
+  const Motion motion(std::make_shared<const Skeleton>(joints, std::vector<Tip>{}), {60, 1}, 1);
   ContactSheetOptions options;
   options.loci = {{"a", {0, 0, 1}}};
   EXPECT_THROW(contact_sheet(motion, options), Error);

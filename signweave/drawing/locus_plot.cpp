@@ -12,8 +12,8 @@ namespace signweave {
 namespace {
 
 // Pixels, unless given otherwise.
-constexpr double kUnit = 120;  // per shoulder width
-constexpr double kEdge = 16;   // around the page, and between the views
+constexpr double kPixelsPerWidth = 120;  // per shoulder width
+constexpr double kPageEdge = 16;         // around the page, and between the views
 constexpr double kKeyLine = 40;
 constexpr double kPanelTitle = 44;
 constexpr double kFoot = 18;   // below a view, for the names of the zones
@@ -43,9 +43,9 @@ struct Bounds {
     behind = std::min(behind, at.z() - kRoom);
     ahead = std::max(ahead, at.z() + kRoom);
   }
-  double width() const { return 2 * aside * kUnit; }
-  double front_height() const { return (top - low) * kUnit; }
-  double above_height() const { return (ahead - behind) * kUnit; }
+  double width() const { return 2 * aside * kPixelsPerWidth; }
+  double front_height() const { return (top - low) * kPixelsPerWidth; }
+  double above_height() const { return (ahead - behind) * kPixelsPerWidth; }
   double height() const { return std::max(front_height(), above_height()); }
 };
 
@@ -54,9 +54,9 @@ struct SpaceView {
   bool above = false;
   double x0 = 0, y0 = 0;
   double left = 0, top = 0, width = 0, height = 0;
-  double x(double across) const { return x0 + kUnit * across; }
+  double x(double across) const { return x0 + kPixelsPerWidth * across; }
   /// Of a height from the front, of a distance forward from above.
-  double y(double value) const { return y0 + (above ? kUnit : -kUnit) * value; }
+  double y(double value) const { return y0 + (above ? kPixelsPerWidth : -kPixelsPerWidth) * value; }
   double x(const Eigen::Vector3f& at) const { return x(static_cast<double>(at.x())); }
   double y(const Eigen::Vector3f& at) const { return y(static_cast<double>(above ? at.z() : at.y())); }
   bool shows(const Eigen::Vector3f& at) const {
@@ -100,7 +100,7 @@ std::string height_name(std::size_t height) {
 }
 
 void draw_key(SpaceCanvas& canvas) {
-  double x = kEdge + 6;
+  double x = kPageEdge + 6;
   constexpr double kLine = 20;
   const auto entry = [&](std::string_view what) {
     canvas.words(x + 10, kLine + 4, 13, "start", kSpaceInk, what);
@@ -126,7 +126,8 @@ void draw_front(SpaceCanvas& canvas, const SpaceView& view, const SignerBody& bo
       view.y(0.1), view.x(0.56), view.y(-0.12), view.x(0.4), view.y(waist), view.x(-0.4), kBodyFill, kBodyRim);
   const double chin = height(Height::chin);
   const double crown = height(Height::above_head);
-  canvas.ellipse(view.x(0.0), view.y((chin + crown) / 2), 0.36 * kUnit * (crown - chin), kUnit * (crown - chin) / 2);
+  canvas.ellipse(view.x(0.0), view.y((chin + crown) / 2), 0.36 * kPixelsPerWidth * (crown - chin),
+                 kPixelsPerWidth * (crown - chin) / 2);
   double above = view.top;
   for (std::size_t i = body.heights.size(); i-- > 0;) {
     const double border = i == 0 ? view.top + view.height : view.y(static_cast<double>(body.heights[i]));
@@ -139,10 +140,10 @@ void draw_front(SpaceCanvas& canvas, const SpaceView& view, const SignerBody& bo
 }
 
 void draw_above(SpaceCanvas& canvas, const SpaceView& view, const SignerBody& body) {
-  canvas.ellipse(view.x(0.0), view.y(0.0), 0.62 * kUnit, 0.26 * kUnit);
+  canvas.ellipse(view.x(0.0), view.y(0.0), 0.62 * kPixelsPerWidth, 0.26 * kPixelsPerWidth);
   canvas.put("<path d=\"M{:.1f} {:.1f}L{:.1f} {:.1f}L{:.1f} {:.1f}Z\" fill=\"{}\" stroke=\"{}\"/>", view.x(-0.09),
              view.y(0.3), view.x(0.0), view.y(0.42), view.x(0.09), view.y(0.3), kBodyFill, kBodyRim);
-  canvas.ellipse(view.x(0.0), view.y(0.06), 0.24 * kUnit, 0.29 * kUnit);
+  canvas.ellipse(view.x(0.0), view.y(0.06), 0.24 * kPixelsPerWidth, 0.29 * kPixelsPerWidth);
   const double reach = view.y(static_cast<double>(body.near_reach));
   canvas.line(view.left, reach, view.left + view.width, reach, "1 2");
   canvas.words(view.left + 4, reach - 4, kSmall, "start", kZoneText, name_of(Reach::near));
@@ -188,8 +189,8 @@ std::string locus_plot(std::span<const LocusPanel> panels, const SignerBody& bod
       bounds.include(token.end);
     }
   }
-  const double row = kPanelTitle + bounds.height() + kFoot + kEdge;
-  const double width = 3 * kEdge + 2 * bounds.width();
+  const double row = kPanelTitle + bounds.height() + kFoot + kPageEdge;
+  const double width = 3 * kPageEdge + 2 * bounds.width();
   SpaceCanvas canvas;
   canvas.put(
       "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0:.0f}\" height=\"{1:.0f}\" viewBox=\"0 0 {0:.0f} {1:.0f}\" "
@@ -200,16 +201,16 @@ std::string locus_plot(std::span<const LocusPanel> panels, const SignerBody& bod
   draw_key(canvas);
   double y = kKeyLine;
   for (const LocusPanel& panel : panels) {
-    canvas.put("<text x=\"{:.1f}\" y=\"{:.1f}\" font-size=\"15\" font-weight=\"bold\" fill=\"{}\">{}</text>", kEdge,
+    canvas.put("<text x=\"{:.1f}\" y=\"{:.1f}\" font-size=\"15\" font-weight=\"bold\" fill=\"{}\">{}</text>", kPageEdge,
                y + 16, kSpaceInk, svg_text(panel.title));
     for (const bool above : {false, true}) {
       SpaceView view{.above = above};
-      view.left = above ? 2 * kEdge + bounds.width() : kEdge;
+      view.left = above ? 2 * kPageEdge + bounds.width() : kPageEdge;
       view.top = y + kPanelTitle;
       view.width = bounds.width();
       view.height = bounds.height();
       view.x0 = view.left + bounds.width() / 2;
-      view.y0 = view.top + kUnit * (above ? -bounds.behind : bounds.top);
+      view.y0 = view.top + kPixelsPerWidth * (above ? -bounds.behind : bounds.top);
       canvas.words(view.left, view.top - 6, 12, "start", kSpaceInk, above ? "from above" : "from the front");
       draw_view(canvas, view, panel, body, loci);
     }

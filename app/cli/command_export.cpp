@@ -41,6 +41,8 @@ void export_one(const ExportArguments& options, Io& io) {
     }
   }
   check_signing_space(options.call.signing_space, options.outputs);
+  check_signing_space(!options.call.loci.empty(), options.outputs, "locus");
+  check_signing_space(options.call.from_above, options.outputs, "from_above");
   const Database database(options.database, kv::Access::read_only);
   report_damage(database, io);
   const calls::SharedCharacter character = character_of(options.call.character);

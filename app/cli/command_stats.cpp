@@ -44,7 +44,8 @@ void print_tables(const calls::StatsCall& options, const calls::Counted& counted
   if (options.pairs) print_some(pair_rows(by_pair(counted.all)), "pair", io);
   if (options.glosses) print_some(gloss_rows(glosses_of(all_signs(counted))), "gloss", io);
   if (options.ngrams > 0) print_some(ngram_rows(all_ngrams(counted, options.ngrams)), "n-gram", io);
-  if (options.pairs || options.glosses || options.ngrams > 0) return;
+  if (options.loci) print_some(loci_rows(counted.loci), "gloss", io);
+  if (options.pairs || options.glosses || options.ngrams > 0 || options.loci) return;
   if (counted.all.empty()) {
     io.out << "no transition recorded\n";
     return;
@@ -69,7 +70,7 @@ void run_stats(const StatsArguments& options, Io& io) {
   report_damage(database, io);
   const calls::Counted counted = calls::run(database, options.call, listener_of(io));
   if (!options.plot.empty()) {
-    const std::string plot = calls::plot_of(counted, options.plot);
+    const std::string plot = calls::plot_of(options.call, counted, options.plot);
     AtomicFile file(options.plot);
     file.write(plot);
     file.commit();
@@ -89,7 +90,9 @@ Run stats(CLI::App& verb) {
   auto options = std::make_shared<StatsArguments>();
   verb.add_option("DB", options->folder, "the database")->required();
   bind(verb, options->call);
-  verb.add_option("--plot", options->plot, "draw the transitions, split into retraction and preparation (.svg)")
+  verb.add_option(
+          "--plot", options->plot,
+          "draw the transitions, split into retraction and preparation; with --loci, the ends of strokes (.svg)")
       ->check([](const std::string& path) { return check_extension(path, {".svg"}); });
   verb.add_option("--format", options->format, "format of the answer")
       ->check(one_of({"table", "json", "csv"}))

@@ -21,7 +21,9 @@ struct Formats<calls::QueryCall> {
 template <>
 struct Formats<calls::StatsCall> {
   static std::vector<std::string> names() { return {"json", "csv", "svg"}; }
-  static std::string help() { return "of the answer: json if not given; svg draws the transitions"; }
+  static std::string help() {
+    return "of the answer: json if not given; svg draws the transitions, or with loci the ends of strokes";
+  }
 };
 template <>
 struct Formats<calls::EvaluateCall> {
@@ -85,7 +87,8 @@ ApiResponse count_transitions(Call& call) {
     if (const RecordingInfo* info = contents->find(name)) call.declare(info->declarations);
   }
   if (format == "svg")
-    return file_answer(answer_format("svg"), "transitions", calls::plot_of(counted, "transitions.svg"));
+    return file_answer(answer_format("svg"), parameters.loci ? "loci" : "transitions",
+                       calls::plot_of(parameters, counted, "svg"));
   if (format == "csv")
     return file_answer(answer_format("csv"), "statistics", calls::format_csv(csv_of(parameters, counted)));
   return json_answer(answer_json<nlohmann::json>(answer_of(parameters, counted)));

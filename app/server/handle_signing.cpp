@@ -88,9 +88,9 @@ std::string wanted_format(const Call& call, const std::string& format, const std
   return {};
 }
 
-void require_sheet(bool signing_space, const std::string& format) {
-  if (!signing_space || format == "svg") return;
-  throw Error(ErrorCode::bad_input, "signing_space: is drawn on contact sheets only; request format svg");
+void require_sheet(bool wanted, const std::string& format, std::string_view parameter = "signing_space") {
+  if (!wanted || format == "svg") return;
+  throw Error(ErrorCode::bad_input, fmt::format("{}: is drawn on contact sheets only; request format svg", parameter));
 }
 
 /// Null if none is requested.
@@ -207,6 +207,8 @@ ApiResponse export_motion(Call& call) {
   std::string format = wanted_format(call, asked, motion_formats());
   if (format.empty()) format = "bvh";
   require_sheet(parameters.signing_space, format);
+  require_sheet(!parameters.loci.empty(), format, "locus");
+  require_sheet(parameters.from_above, format, "from_above");
   const AnswerFormat& file = answer_format(format);
   const calls::SharedCharacter character = wanted_character(call, parameters.character);
   const Database& database = call.database().database();

@@ -82,6 +82,8 @@ FileContent Exported::content() const {
       .title = regenerated.empty() ? info.name : fmt::format("{}, in part made by {}", info.name, regenerated_by->name),
       .rig = character ? RigNames{} : info.rig,
       .signing_space = signing_space,
+      .from_above = from_above,
+      .loci = loci,
       .declarations = info.declarations,
       .character = character ? character->plain : std::filesystem::path()};
 }
@@ -90,6 +92,7 @@ Exported run(const Database& database, const ExportCall& call, const std::vector
   const Snapshot snapshot = database.snapshot();
   Exported made{.info = snapshot.contents().at(call.recording),
                 .signing_space = call.signing_space,
+                .from_above = call.from_above,
                 .layout_changes = layout_changes_of(call.bvh)};
   const RecordingInfo& info = made.info;
   const bool part = call.from || call.to;
@@ -123,6 +126,10 @@ Exported run(const Database& database, const ExportCall& call, const std::vector
                   .gaps = made.regenerated,
                   .method = *made.regenerated_by},
                  motion, made.notices);
+    }
+    if (!call.loci.empty()) {
+      const std::optional<SignerBody>& body = snapshot.signer(info)->body;
+      made.loci = marked_loci(call.loci, body ? *body : SignerBody());
     }
     made.motion = at_rate(std::move(motion), call.rate, info.name, made.notices);
   }

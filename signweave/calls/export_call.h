@@ -27,6 +27,8 @@ struct ExportCall {
   std::string transition;
   std::string joints;
   bool signing_space = false;
+  std::vector<std::string> loci;
+  bool from_above = false;
   std::string character;
   BvhWriting bvh;
   RateWriting rate;
@@ -59,6 +61,8 @@ void fields(Visit& visit, ExportCall& call) {
         call.transition);
   visit(Field{.name = "joints", .help = "joint names, separated by commas; the others are left at rest"}, call.joints);
   visit(Field{.name = "signing_space", .help = kSigningSpaceHelp}, call.signing_space);
+  visit(Field{.name = "locus", .help = kLocusHelp, .check = check_marked_locus, .type_name = "LOCUS"}, call.loci);
+  visit(Field{.name = "from_above", .help = kFromAboveHelp}, call.from_above);
   visit(Field{.name = "character", .help = kCharacterHelp}, call.character);
   fields(visit, call.rate);
   fields(visit, call.bvh);
@@ -71,6 +75,8 @@ struct Exported {
   std::optional<Motion> motion;
   std::optional<AnnotationDocument> document;
   bool signing_space = false;
+  std::vector<MarkedLocus> loci;  ///< to mark on a contact sheet
+  bool from_above = false;
   bvh::LayoutChanges layout_changes;
   SharedCharacter character;                         ///< its joints are the motion's; null: the recording's
   std::vector<FrameRange> regenerated;               ///< the recording's frames that were cut out and generated again

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "signweave/calls/gloss_loci.h"
 #include "signweave/core/answer.h"
 #include "signweave/features/gloss_stats.h"
 #include "signweave/features/transition_stats.h"
@@ -134,12 +135,47 @@ void fields(Visit& visit, const RecordingStatistics& one) {
   visit(AnswerField{.name = "transitions"}, one.transitions);
 }
 
+template <class Visit>
+void fields(Visit& visit, const PlaceStats& place) {
+  visit.type("PlaceStatistics");
+  visit(AnswerField{.name = "azimuth_deg", .help = "0 is straight ahead, positive to the signer's left"},
+        place.azimuth);
+  visit(AnswerField{.name = "elevation_deg"}, place.elevation);
+  visit(AnswerField{.name = "distance_sw", .help = "shoulder widths"}, place.distance);
+  visit(AnswerField{.name = "nearest", .help = "the built-in locus nearest to the medians"}, place.nearest);
+  visit(AnswerField{.name = "places", .help = "number of places more than 15 cm apart"}, place.places);
+  visit(AnswerField{.name = "spread_m", .help = "root mean square distance from the mean"}, place.spread);
+}
+template <class Visit>
+void fields(Visit& visit, const GlossLoci::Token& token) {
+  const auto numbers = [](const Eigen::Vector3f& at) { return std::vector<float>{at.x(), at.y(), at.z()}; };
+  visit.type("PlacedToken");
+  visit(AnswerField{.name = "recording"}, token.recording);
+  span_fields(visit, token.span);
+  visit(AnswerField{.name = "hand"}, std::string_view(token.hand == Side::left ? "left" : "right"));
+  visit(AnswerField{.name = "begin", .help = "to the signer's left, up, forward; shoulder widths"},
+        numbers(token.palm.begin));
+  visit(AnswerField{.name = "end"}, numbers(token.palm.end));
+}
+template <class Visit>
+void fields(Visit& visit, const GlossLoci& gloss) {
+  visit.type("GlossLoci");
+  visit(AnswerField{.name = "gloss"}, gloss.gloss);
+  visit(AnswerField{.name = "hand"}, std::string_view(gloss.hand == Side::left ? "left" : "right"));
+  visit(AnswerField{.name = "heading", .help = "away from the signer, toward it, or neither"}, name_of(gloss.heading));
+  visit(AnswerField{.name = "spread_m", .help = "the greater one of begin and end"}, gloss.spread());
+  visit(AnswerField{.name = "begin", .help = "of the strokes"}, gloss.begin);
+  visit(AnswerField{.name = "end", .help = "of the strokes"}, gloss.end);
+  visit(AnswerField{.name = "tokens"}, gloss.tokens);
+}
+
 struct StatisticsAnswer {
   TransitionSummary all;
   std::vector<RecordingStatistics> recordings;
   std::optional<std::vector<PairStats>> pairs;  ///< this and those below: if requested
   std::optional<std::vector<GlossStats>> glosses;
   std::optional<std::vector<NgramStats>> ngrams;
+  std::optional<std::vector<GlossLoci>> loci;
 };
 template <class Visit>
 void fields(Visit& visit, const StatisticsAnswer& answer) {
@@ -149,6 +185,7 @@ void fields(Visit& visit, const StatisticsAnswer& answer) {
   visit(AnswerField{.name = "pairs"}, answer.pairs);
   visit(AnswerField{.name = "glosses"}, answer.glosses);
   visit(AnswerField{.name = "ngrams"}, answer.ngrams);
+  visit(AnswerField{.name = "loci", .help = "by descending spread"}, answer.loci);
 }
 
 }  // namespace calls

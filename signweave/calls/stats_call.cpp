@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <memory>
 
+#include "signweave/calls/table.h"
+#include "signweave/core/text.h"
+#include "signweave/drawing/locus_plot.h"
 #include "signweave/drawing/transition_plot.h"
 #include "signweave/semantic_db/semantic_db.h"
 
@@ -31,6 +34,95 @@ MotionOf motion_of(const Database& database, const Contents& contents, std::uint
   };
 }
 
+/// One palm over the strokes of a sign, from the measures of its phases; none if one of them is not measured.
+std::optional<PalmStroke> palm_of(const Sign& sign, std::span<const std::size_t> places,
+                                  const RecordingFeatures& features, Side side) {
+  std::optional<PalmStroke> palm;
+  for (std::size_t i = 0; i < sign.phases.size(); ++i) {
+    if (sign.phases[i].kind != PhaseKind::stroke) continue;
+    if (i >= places.size() || places[i] >= features.phases.size()) return std::nullopt;
+    const PhaseFeatures& phase = features.phases[places[i]];
+    const HandOver& hand = phase.hands[static_cast<std::size_t>(side)];
+    if (!phase.known || !hand.known) return std::nullopt;
+    if (!palm) palm = PalmStroke{.begin = hand.begin.position};
+    palm->end = hand.end.position;
+    palm->path += hand.path_length;
+  }
+  return palm;
+}
+
+/// Adds the measured tokens of a recording that has features.
+void add_placed(const RecordingFeatures& features, const std::vector<std::vector<std::size_t>>& places,
+                const std::string& recording, const std::vector<Sign>& signs, std::vector<PlacedToken>& out) {
+  if (!features.why_not.empty() || places.size() != signs.size()) return;
+  for (std::size_t i = 0; i < signs.size(); ++i) {
+    const Sign& sign = signs[i];
+    PlacedToken token{
+        .gloss = sign.gloss,
+        .recording = recording,
+        .span = sign.stroke_span().value_or(sign.span),
+        .hand = sign.hand,
+        .inferred = sign.inferred,
+        .palms = {palm_of(sign, places[i], features, Side::left), palm_of(sign, places[i], features, Side::right)},
+        .shoulder_width = features.shoulder_width};
+    if (token.palms[0] || token.palms[1]) out.push_back(std::move(token));
+  }
+}
+
+/// Fills in the loci. A recording whose features are damaged was already reported.
+void add_loci(const Database& database, const Contents& contents, const StatsCall& call, Counted& counted) {
+  std::vector<PlacedToken> tokens;
+  for (std::size_t i = 0; i < counted.names.size(); ++i) {
+    const auto recording = static_cast<std::uint32_t>(
+        std::ranges::find(contents.recordings, counted.names[i], &RecordingInfo::name) - contents.recordings.begin());
+    const std::size_t before = tokens.size();
+    try {
+      add_placed(database.features(counted.names[i]), phase_places_of(contents.segments, recording), counted.names[i],
+                 counted.signs[i], tokens);
+    } catch (const Error&) {
+      continue;
+    }
+    if (before == 0 && !tokens.empty()) counted.body = database.snapshot().hand_trace(recording).body;
+  }
+  if (!call.gloss.empty()) {
+    const std::string form = match_form(call.gloss);
+    std::vector<std::string> known;
+    for (const PlacedToken& token : tokens) known.push_back(token.gloss);
+    std::erase_if(tokens, [&](const PlacedToken& token) { return match_form(token.gloss) != form; });
+    if (tokens.empty()) {
+      throw Error(ErrorCode::not_found, fmt::format("no measured sign has the gloss \"{}\"{}", printable(call.gloss),
+                                                    did_you_mean(call.gloss, known)));
+    }
+  }
+  counted.loci = gloss_loci(tokens, counted.body);
+}
+
+std::string plot_of_loci(const Counted& counted, const std::string& where) {
+  if (counted.loci.empty()) {
+    throw Error(ErrorCode::not_found, where + ": not written, because no stroke is measured: import signs with motion");
+  }
+  std::vector<LocusPanel> panels;
+  for (const GlossLoci& gloss : counted.loci) {
+    if (panels.size() == kMostPlottedGlosses) break;
+    LocusPanel panel{.title = fmt::format("{}: {}, spread {:.0f} cm", gloss.gloss,
+                                          calls::counted(gloss.tokens.size(), "token"), 100 * gloss.spread()),
+                     .tokens = {}};
+    for (const GlossLoci::Token& token : gloss.tokens) {
+      panel.tokens.push_back(
+          {token.palm.begin, token.palm.end,
+           fmt::format("{} {} in {} at {} ms", token.hand == Side::left ? "left hand of" : "right hand of", gloss.gloss,
+                       token.recording, token.span.begin.count())});
+    }
+    panels.push_back(std::move(panel));
+  }
+  std::vector<MarkedLocus> marks;
+  for (const std::string_view name : built_in_loci()) {
+    const LocusRef locus{.kind = LocusRef::Kind::name, .name = std::string(name), .numbers = {}};
+    marks.push_back({locus.name, resolve(locus, {}, 0, counted.body).at});
+  }
+  return locus_plot(panels, counted.body, marks);
+}
+
 }  // namespace
 
 Counted run(const Database& database, const StatsCall& call, const Listener& listener) {
@@ -53,6 +145,10 @@ Counted run(const Database& database, const StatsCall& call, const Listener& lis
     counted.transitions.push_back(recorded_transitions(name, counted.signs.back(), hands));
     counted.all.insert(counted.all.end(), counted.transitions.back().begin(), counted.transitions.back().end());
   }
+  if (!call.gloss.empty() && !call.loci) {
+    throw Error(ErrorCode::bad_input, "'gloss' applies only to 'loci': give both");
+  }
+  if (call.loci) add_loci(database, contents, call, counted);
   const bool none = std::all_of(counted.signs.begin(), counted.signs.end(), [](const auto& of) { return of.empty(); });
   if (!recording.empty() && none) {
     throw Error(ErrorCode::not_found,
@@ -87,7 +183,8 @@ std::vector<NgramStats> all_ngrams(const Counted& counted, std::size_t longest) 
   return ngrams;
 }
 
-std::string plot_of(const Counted& counted, const std::string& where) {
+std::string plot_of(const StatsCall& call, const Counted& counted, const std::string& where) {
+  if (call.loci) return plot_of_loci(counted, where);
   std::vector<TransitionPanel> panels;
   for (std::size_t i = 0; i < counted.names.size(); ++i) {
     const std::vector<RecordedTransition> of = counted_transitions(counted.transitions[i]);
@@ -118,13 +215,14 @@ std::string plot_of(const Counted& counted, const std::string& where) {
 }
 
 std::string csv_fault(const StatsCall& call) {
-  return (call.pairs ? 1 : 0) + (call.glosses ? 1 : 0) + (call.ngrams > 0 ? 1 : 0) > 1
-             ? "csv holds one table: give one of pairs, glosses and ngrams"
+  return (call.pairs ? 1 : 0) + (call.glosses ? 1 : 0) + (call.ngrams > 0 ? 1 : 0) + (call.loci ? 1 : 0) > 1
+             ? "csv holds one table: give one of pairs, glosses, ngrams and loci"
              : "";
 }
 
 StatisticsAnswer answer_of(const StatsCall& call, const Counted& counted) {
-  StatisticsAnswer answer{.all = describe(counted.all), .recordings = {}, .pairs = {}, .glosses = {}, .ngrams = {}};
+  StatisticsAnswer answer{
+      .all = describe(counted.all), .recordings = {}, .pairs = {}, .glosses = {}, .ngrams = {}, .loci = {}};
   for (std::size_t i = 0; i < counted.names.size(); ++i) {
     answer.recordings.push_back({.summary = describe(counted.transitions[i]),
                                  .recording = counted.names[i],
@@ -134,6 +232,7 @@ StatisticsAnswer answer_of(const StatsCall& call, const Counted& counted) {
   if (call.pairs) answer.pairs = by_pair(counted.all);
   if (call.glosses) answer.glosses = glosses_of(all_signs(counted));
   if (call.ngrams > 0) answer.ngrams = all_ngrams(counted, call.ngrams);
+  if (call.loci) answer.loci = counted.loci;
   return answer;
 }
 
@@ -141,6 +240,7 @@ Rows csv_of(const StatsCall& call, const Counted& counted) {
   if (call.pairs) return pair_csv(by_pair(counted.all));
   if (call.glosses) return gloss_csv(glosses_of(all_signs(counted)));
   if (call.ngrams > 0) return ngram_csv(all_ngrams(counted, call.ngrams));
+  if (call.loci) return loci_csv(counted.loci);
   return transition_csv(summaries_of(counted));
 }
 

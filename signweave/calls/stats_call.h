@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "signweave/calls/field.h"
+#include "signweave/calls/gloss_loci.h"
 #include "signweave/calls/listener.h"
 #include "signweave/calls/stats_answer.h"
 #include "signweave/calls/stats_report.h"
@@ -19,6 +20,8 @@ struct StatsCall {
   bool pairs = false;
   bool glosses = false;
   std::size_t ngrams = 0;  ///< 0: none
+  bool loci = false;
+  std::string gloss;  ///< with `loci`; empty: all
 };
 
 template <class Visit>
@@ -31,6 +34,8 @@ void fields(Visit& visit, StatsCall& call) {
               .help = "runs of 2 to N glosses, and the time between their strokes",
               .range = Range{std::size_t{2}, kLongestNgram}},
         call.ngrams);
+  visit(Field{.name = "loci", .help = "where in signing space the strokes of each gloss begin and end"}, call.loci);
+  visit(Field{.name = "gloss", .help = "with loci: of this gloss alone"}, call.gloss);
 }
 
 /// The signs and transitions that were counted.
@@ -39,19 +44,24 @@ struct Counted {
   std::vector<std::vector<Sign>> signs;                      ///< [recording]
   std::vector<std::vector<RecordedTransition>> transitions;  ///< [recording]
   std::vector<RecordedTransition> all;
+  std::vector<GlossLoci> loci;  ///< if requested
+  SignerBody body;              ///< of the first recording with a measured sign
 };
 
-/// A recording whose features are damaged is reported; its durations are still counted. Throws Error{not_found}.
+/// A recording whose features are damaged is reported; its durations are still counted. Throws Error{not_found},
+/// Error{bad_input} for a gloss without loci.
 Counted run(const Database& database, const StatsCall& call, const Listener& listener);
 
 StatisticsAnswer answer_of(const StatsCall& call, const Counted& counted);
-/// Rows for CSV; at most one of pairs, glosses and ngrams may be requested (see csv_fault).
+/// Rows for CSV; at most one of pairs, glosses, ngrams and loci may be requested (see csv_fault).
 Rows csv_of(const StatsCall& call, const Counted& counted);
 /// Returns why the request is not a single table; empty if it is.
 std::string csv_fault(const StatsCall& call);
-/// Figure 4 of the paper as an SVG document. Throws Error{not_found}, its text prefixed with `where`, if no transition
-/// is recorded.
-std::string plot_of(const Counted& counted, const std::string& where);
+/// The number of glosses in a plot of loci: those with the greatest spread.
+inline constexpr std::size_t kMostPlottedGlosses = 12;
+/// An SVG document: figure 4 of the paper, or with `loci` the signing space with the ends of strokes. Throws
+/// Error{not_found}, its text prefixed with `where`, if no transition is recorded, or no stroke measured.
+std::string plot_of(const StatsCall& call, const Counted& counted, const std::string& where);
 
 std::vector<NamedSummary> summaries_of(const Counted& counted);
 std::vector<Sign> all_signs(const Counted& counted);

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "signweave/rig/part.h"
 
 namespace signweave::calls {
@@ -66,6 +68,11 @@ void add_complete(const TransitionSummary& summary, const std::vector<std::strin
   part("whole", summary.whole);
   part("retraction", summary.retraction);
   part("preparation", summary.preparation);
+}
+
+std::string locus_of(const SpaceAngles& at) {
+  const auto whole = [](float degrees) { return static_cast<int>(std::lround(degrees)); };
+  return fmt::format("@{}/{}/{:.1f}", whole(at.azimuth), whole(at.elevation), at.distance);
 }
 
 std::string text_of(const std::vector<std::string>& glosses) {
@@ -142,6 +149,20 @@ Rows ngram_rows(const std::vector<NgramStats>& ngrams) {
   return rows;
 }
 
+Rows loci_rows(const std::vector<GlossLoci>& glosses) {
+  Rows rows = {
+      {"gloss", "count", "hand", "begin", "nearest", "end", "nearest", "heading", "begins", "ends", "spread cm"}};
+  for (const GlossLoci& gloss : glosses) {
+    rows.push_back({gloss.gloss, std::to_string(gloss.tokens.size()), kSideNames[static_cast<std::size_t>(gloss.hand)],
+                    locus_of(gloss.begin.middle), fmt::format("@{}", gloss.begin.nearest), locus_of(gloss.end.middle),
+                    fmt::format("@{}", gloss.end.nearest),
+                    gloss.heading == Heading::neither ? "-" : std::string(name_of(gloss.heading)),
+                    std::to_string(gloss.begin.places), std::to_string(gloss.end.places),
+                    fmt::format("{:.0f}", 100 * gloss.spread())});
+  }
+  return rows;
+}
+
 Rows transition_csv(const std::vector<NamedSummary>& summaries) {
   Rows rows = {joined({"recording", "part", "hand", "measure"}, complete_head())};
   for (const NamedSummary& one : summaries) add_complete(one.summary, {one.recording}, rows);
@@ -169,6 +190,27 @@ Rows ngram_csv(const std::vector<NgramStats>& ngrams) {
     rows.push_back(joined(
         {std::to_string(ngram.glosses.size()), text_of(ngram.glosses), std::to_string(ngram.count), "interval_ms"},
         complete(ngram.interval)));
+  }
+  return rows;
+}
+
+Rows loci_csv(const std::vector<GlossLoci>& glosses) {
+  Rows rows = {
+      joined({"gloss", "hand", "heading", "end", "nearest", "places", "spread_m", "measure"}, complete_head())};
+  for (const GlossLoci& gloss : glosses) {
+    for (const bool begin : {true, false}) {
+      const PlaceStats& place = begin ? gloss.begin : gloss.end;
+      const std::vector<std::string> name = {gloss.gloss,
+                                             kSideNames[static_cast<std::size_t>(gloss.hand)],
+                                             std::string(name_of(gloss.heading)),
+                                             begin ? "begin" : "end",
+                                             std::string(place.nearest),
+                                             std::to_string(place.places),
+                                             fmt::format("{:.6g}", place.spread)};
+      rows.push_back(joined(joined(name, {"azimuth_deg"}), complete(place.azimuth)));
+      rows.push_back(joined(joined(name, {"elevation_deg"}), complete(place.elevation)));
+      rows.push_back(joined(joined(name, {"distance_sw"}), complete(place.distance)));
+    }
   }
   return rows;
 }

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "signweave/calls/gloss_loci.h"
 #include "signweave/features/gloss_stats.h"
 #include "signweave/features/transition_stats.h"
 
@@ -24,6 +25,8 @@ Rows hand_rows(const std::vector<NamedSummary>& summaries);
 Rows pair_rows(const std::vector<PairStats>& pairs);
 Rows gloss_rows(const std::vector<GlossStats>& glosses);
 Rows ngram_rows(const std::vector<NgramStats>& ngrams);
+/// The middle of each end is written as a locus is: azimuth/elevation/distance.
+Rows loci_rows(const std::vector<GlossLoci>& glosses);
 
 /// Complete rows: one for each part (whole, retraction, preparation) and measure (duration; for each hand displacement,
 /// path and speed if known), with every number of its distribution.
@@ -31,5 +34,6 @@ Rows transition_csv(const std::vector<NamedSummary>& summaries);
 Rows pair_csv(const std::vector<PairStats>& pairs);
 Rows gloss_csv(const std::vector<GlossStats>& glosses);
 Rows ngram_csv(const std::vector<NgramStats>& ngrams);
+Rows loci_csv(const std::vector<GlossLoci>& glosses);
 
 }  // namespace signweave::calls

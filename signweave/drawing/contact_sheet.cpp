@@ -191,7 +191,27 @@ std::vector<Cell> thinned(const std::vector<Cell>& all, std::size_t most, const 
   return kept;
 }
 
-/// The signer whose heights and zones are to be drawn.
+/// Looks down on a figure that faces the viewer, who then sees its front at the bottom.
+void look_from_above(ModelPose& pose, SignerSpace& space) {
+  const Eigen::Quaternionf tilt(Eigen::AngleAxisf(std::numbers::pi_v<float> / 2, Vector3f::UnitX()));
+  for (Vector3f& position : pose.positions) position = tilt * position;
+  for (Eigen::Quaternionf& rotation : pose.rotations) rotation = tilt * rotation;
+  space.origin = tilt * space.origin;
+  space.model_from_signer = tilt * space.model_from_signer;
+}
+
+/// Gives a figure room for the loci that are within reach.
+void include_loci(const std::vector<MarkedLocus>& loci, const SignerSpace& space, Extent& figure) {
+  for (const MarkedLocus& locus : loci) {
+    if (!(locus.at.norm() <= kFarthestDrawn)) continue;
+    const Eigen::Vector3d at = space.to_model(locus.at).cast<double>();
+    figure.half_width = std::max(figure.half_width, std::abs(at.x()));
+    figure.low = std::min(figure.low, at.y());
+    figure.top = std::max(figure.top, at.y());
+  }
+}
+
+/// The signer whose heights, zones or loci are to be drawn.
 struct Signer {
   RigMap rig;
   SignerBody body;
@@ -218,9 +238,12 @@ std::string contact_sheet(const Motion& motion, const ContactSheetOptions& optio
   }
   const Skeleton& skeleton = motion.skeleton();
   const RigMap rig = options.rig ? *options.rig : map_rig(motion);
-  const std::optional<Signer> signer = signer_of(motion, rig, options.signing_space);
+  const bool has_space = options.signing_space || !options.loci.empty();
+  const std::optional<Signer> signer = signer_of(motion, rig, has_space);
+  const bool zones = options.signing_space && !options.from_above;
 
   std::vector<ModelPose> poses;
+  std::vector<SignerSpace> spaces;  // [cell]; unused without a signer
   std::vector<Extent> figures;
   const FigurePlan plan = figure_plan(motion, rig);
   for (const auto& [frame, given] : shown) {
@@ -229,9 +252,12 @@ std::string contact_sheet(const Motion& motion, const ContactSheetOptions& optio
     apply(align(standing_over(motion, {frame, frame + 1}), Standing{}), motion.skeleton(), pose.view());
     poses.push_back(to_model_space(skeleton, pose.view()));
     if (options.turn != 0) turn_about_vertical(options.turn, poses.back());
+    spaces.push_back(signer ? signer_space(signer->body, signer->rig, poses.back()) : SignerSpace());
+    const SignerSpace& space = spaces.back();
+    if (options.from_above) look_from_above(poses.back(), spaces.back());
     figures.push_back(extent_of(figure_points(skeleton, plan, poses.back())));
-    if (signer) {  // room for the names of the highest and the lowest zone
-      const SignerSpace space = signer_space(signer->body, signer->rig, poses.back());
+    include_loci(options.loci, space, figures.back());
+    if (zones) {  // room for the names of the highest and the lowest zone
       const auto height = [&](float y) { return static_cast<double>(space.to_model({0, y, 0}).y()); };
       Extent& figure = figures.back();
       figure.top = std::max(figure.top, height(signer->body.heights.back() + kBeyond));
@@ -264,11 +290,9 @@ std::string contact_sheet(const Motion& motion, const ContactSheetOptions& optio
                    "height=\"{:.1f}\" fill=\"#f6f7f9\" rx=\"4\"/>\n",
                    x, y, kCellWidth - 4, kCellHeight - 4);
     const FigureView view = view_of(figures[cell], common);
-    if (signer) {
-      draw_signing_space(signer->body, signer_space(signer->body, signer->rig, poses[cell]), view, kCellWidth,
-                         kCellHeight - kCaption, out);
-    }
+    if (zones) draw_signing_space(signer->body, spaces[cell], view, kCellWidth, kCellHeight - kCaption, out);
     draw_figure(skeleton, plan, poses[cell], figure_face(motion, shown[cell].frame), view, out);
+    if (signer) draw_loci(options.loci, spaces[cell], view, kCellWidth, kCellHeight - kCaption, out);
     const double seconds = static_cast<double>(shown[cell].frame) * motion.rate().frame_time().count();
     const std::size_t given = shown[cell].given;
     put_caption(given < options.captions.size() ? options.captions[given] : fmt::format("{:.2f} s", seconds), out);

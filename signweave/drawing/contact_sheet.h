@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "signweave/drawing/locus_marks.h"
 #include "signweave/motion/motion.h"
 #include "signweave/rig/rig_map.h"
 
@@ -22,10 +23,12 @@ struct ContactSheetOptions {
   std::vector<int> importance;  ///< [cell] of the given frames; higher values are kept first; missing ones are 0
   std::size_t columns = 6;
   double turn = 0;  ///< degrees by which figures are turned to their left: 90 shows them from their right side
-  bool signing_space = false;  ///< the signer's heights and zones behind each figure (docs/signing-space.md)
-  std::optional<RigMap> rig;   ///< which joint is which; if not given, the result of `map_rig`
-  std::string title;           ///< a line above; empty for no title
-  std::string note;            ///< a line below, such as "placeholder shapes, not LSF"; empty for no note
+  bool signing_space = false;     ///< the signer's heights and zones behind each figure (docs/signing-space.md)
+  bool from_above = false;        ///< figures are seen from above, looking down the page, without heights and zones
+  std::vector<MarkedLocus> loci;  ///< marked in front of each figure, where they are relative to the signer
+  std::optional<RigMap> rig;      ///< which joint is which; if not given, the result of `map_rig`
+  std::string title;              ///< a line above; empty for no title
+  std::string note;               ///< a line below, such as "placeholder shapes, not LSF"; empty for no note
 };
 
 /// Draws a sheet of figures as an SVG document: the upper body from the front, as a signer's addressee sees it. All
@@ -34,7 +37,7 @@ struct ContactSheetOptions {
 /// eyes or the motion has a face's scalar tracks, a face shows them. Sides, hands and head come from joint names; if
 /// the names do not identify arms and hips, the body's shape does; what neither identifies is drawn in grey. The same
 /// input gives the same bytes. Throws Error{bad_input} for a motion without frames, a frame outside the motion, or no
-/// columns; Error{not_found} if a signing space is requested and the motion has none.
+/// columns; Error{not_found} if a signing space or loci are requested and the motion has none.
 std::string contact_sheet(const Motion& motion, const ContactSheetOptions& options = {});
 
 }  // namespace signweave

@@ -10,6 +10,7 @@
 
 #include "signweave/annotation/declarations.h"
 #include "signweave/annotation/document.h"
+#include "signweave/drawing/locus_marks.h"
 #include "signweave/formats/bvh/bvh.h"
 #include "signweave/motion/motion.h"
 #include "signweave/rig/rig_map.h"
@@ -30,6 +31,8 @@ struct FileContent {
   std::string title{};
   RigNames rig{};                     ///< joints named by a mapping file
   bool signing_space = false;         ///< for .svg: draw the signing space behind each figure
+  bool from_above = false;            ///< for .svg: figures are seen from above
+  std::vector<MarkedLocus> loci{};    ///< for .svg: marked in front of each figure
   Declarations declarations{};        ///< of the sources, such as "signweave:placeholder"
   std::filesystem::path character{};  ///< for .glb: the character's plain GLB, whose joints the motion has; empty: none
   std::string motion_file{};          ///< for .eaf of a synthesis: the name of the motion file that it links

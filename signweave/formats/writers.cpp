@@ -161,6 +161,8 @@ std::string svg_text(const FileContent& content) {
   options.title = content.title;
   options.note = note_of(content.declarations);
   options.signing_space = content.signing_space;
+  options.from_above = content.from_above;
+  options.loci = content.loci;
   options.rig = map_rig(*content.motion, content.rig);
   return contact_sheet(*content.motion, options);
 }

@@ -113,6 +113,17 @@ std::string_view QueryLexer::bracketed() {
   return text_.substr(begin, end - begin);
 }
 
+std::string_view QueryLexer::after_at() {
+  const std::size_t begin = at_;
+  const auto goes_on = [&] {
+    return at_ < text_.size() && (text_[at_] == '/' || text_[at_] == ',' || !ends_word(text_.substr(at_)));
+  };
+  while (goes_on()) ++at_;
+  const std::string_view result = text_.substr(begin, at_ - begin);
+  next_ = read();
+  return result;
+}
+
 void QueryLexer::join_slash() {
   if (next_.kind != QueryToken::Kind::word || at_ >= text_.size() || text_[at_] != '/') return;
   next_.text += text_[at_++];

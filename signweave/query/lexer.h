@@ -41,6 +41,9 @@ class QueryLexer {
   void expect(std::string_view symbol, std::string_view hint);
   /// The bytes up to the next ']', which is taken too. The next token must be "[".
   std::string_view bracketed();
+  /// The bytes directly after the next token, which must be "@", up to white space, a parenthesis, an operator other
+  /// than "/" and ",", or a quotation mark; takes the token and them. Empty if there are none.
+  std::string_view after_at();
   /// If the next token is a word directly followed by a slash ("m/s"), joins both and the text after the slash into one
   /// word.
   void join_slash();

@@ -4,7 +4,9 @@
 #include <cmath>
 #include <limits>
 
+#include "signweave/query/place_over.h"
 #include "signweave/query/series_over.h"
+#include "signweave/space/locus.h"
 
 namespace signweave {
 namespace {
@@ -84,6 +86,10 @@ HandMeasure measure_for(const Condition& condition) noexcept {
       return measure_at_any(condition);
     case Quantity::enters:
       return HandMeasure::entered;
+    case Quantity::from:  // none of these has a measure: see place_over.h
+    case Quantity::to:
+    case Quantity::toward:
+    case Quantity::at:
     case Quantity::track:
     case Quantity::mean_track:
     case Quantity::gaze:
@@ -177,8 +183,8 @@ MovementCheck::MovementCheck(const Condition& condition, const Movement* movemen
   reading_ = reading_of(condition, measure_);
   mask_ = mask_for(condition);
   if (const Amount* amount = std::get_if<Amount>(&condition.value)) {
-    scaled_ = (amount->unit == Unit::metres && in_shoulder_widths(measure_)) ||
-              (amount->unit == Unit::shoulder_widths && !in_shoulder_widths(measure_));
+    const bool in_widths = of_ends() || in_shoulder_widths(measure_);
+    scaled_ = (amount->unit == Unit::metres && in_widths) || (amount->unit == Unit::shoulder_widths && !in_widths);
   }
   if (movement_ == nullptr) return;
   if (measure_ == HandMeasure::hands) {
@@ -202,7 +208,15 @@ void MovementCheck::load(std::uint32_t recording) {
   if (recording_ == recording) return;
   recording_.reset();  // if the code below is interrupted, nothing of it is loaded
   series_values_.clear();
+  if (is_aim(condition_->movement.quantity)) {
+    const LocusRef& locus = condition_->movement.locus;
+    const bool of_body = locus.name == "self";
+    locus_ = resolve(locus, {}, 0, of_body ? movement_->hands(recording)->body : SignerBody()).at;
+  }
   for (Alternative& alternative : alternatives_) {
+    alternative.angles.clear();
+    if (of_ends()) load_ends(alternative, recording);
+    if (is_place(condition_->movement.quantity) || is_aim(condition_->movement.quantity)) continue;
     const bool palms = alternative.point.kind == Point::Kind::palm &&
                        (!alternative.other || alternative.other->kind == Point::Kind::palm);
     if (palms) alternative.column = movement_->column({measure_, alternative.point.side}, recording);
@@ -211,6 +225,39 @@ void MovementCheck::load(std::uint32_t recording) {
   if (number) bounds_ = bounds_of_amount(recording);
   if (!number && (reading_ == Reading::within || reading_ == Reading::outside)) bounds_ = bounds_of_zone(recording);
   recording_ = recording;
+}
+
+void MovementCheck::load_ends(Alternative& alternative, std::uint32_t recording) {
+  if (alternative.point.kind != Point::Kind::palm) return;
+  constexpr std::array kEnds = {HandMeasure::begin_x, HandMeasure::begin_height, HandMeasure::begin_forward,
+                                HandMeasure::end_x,   HandMeasure::end_height,   HandMeasure::end_forward};
+  for (std::size_t i = 0; i < kEnds.size(); ++i) {
+    alternative.ends[i] = movement_->column({kEnds[i], alternative.point.side}, recording);
+  }
+}
+
+bool MovementCheck::is_stored(const Alternative& alternative) const noexcept {
+  return !(of_ends() ? alternative.ends.front() : alternative.column).values.empty();
+}
+
+float MovementCheck::stored_value(const Alternative& alternative, RowId row) const {
+  if (!of_ends()) return alternative.column.values[row];
+  const auto at = [&](std::size_t first) {
+    return Eigen::Vector3f(alternative.ends[first].values[row], alternative.ends[first + 1].values[row],
+                           alternative.ends[first + 2].values[row]);
+  };
+  return place_over(condition_->movement, {.begin = at(0), .end = at(3)}, locus_);
+}
+
+/// A row may be tested repeatedly, as a partner of others, and its finger is read from the motion.
+float MovementCheck::computed_value(Alternative& alternative, const MovingRow& row, std::span<const TimeSpan> spans) {
+  if (condition_->movement.quantity != Quantity::at) return from_frames(alternative, row.recording, spans);
+  std::vector<float>& angles = alternative.angles;
+  if (angles.size() <= row.row) angles.resize(row.row + 1, kUnbounded);
+  if (std::isinf(angles[row.row])) {
+    angles[row.row] = pointing_over(*movement_, row.recording, alternative.point.side, spans, locus_);
+  }
+  return angles[row.row];
 }
 
 MovementCheck::Bounds MovementCheck::bounds_of_amount(std::uint32_t recording) const {
@@ -310,16 +357,16 @@ bool MovementCheck::holds(const MovingRow& row, const MeasuredSpans& spans) {
   if (alternatives_.empty()) return false;
   load(row.recording);
   std::optional<std::vector<TimeSpan>> measured;
-  for (const Alternative& alternative : alternatives_) {
+  for (Alternative& alternative : alternatives_) {
     const bool wrong = !row.any_hand && ((alternative.own && alternative.point.side != row.hand) ||
                                          (alternative.other_own && alternative.other->side != row.hand));
     if (wrong) continue;
-    if (!alternative.column.values.empty()) {
-      if (fits(alternative.column.values[row.row])) return true;
+    if (is_stored(alternative)) {
+      if (fits(stored_value(alternative, row.row))) return true;
       continue;
     }
     if (!measured) measured = spans();
-    if (fits(from_frames(alternative, row.recording, *measured))) return true;
+    if (fits(computed_value(alternative, row, *measured))) return true;
   }
   return false;
 }
@@ -383,6 +430,9 @@ float MovementCheck::from_frames(const Alternative& alternative, std::uint32_t r
   if (measure_ == HandMeasure::hands) return hands_of(both, trace->body);
   if (alternative.other) return apart[measure_];
   const Course all = join(courses, weights, trace->shoulder_width);
+  if (of_ends()) {
+    return place_over(condition_->movement, {.begin = all.over.begin.position, .end = all.over.end.position}, locus_);
+  }
   return std::isfinite(all.over.path_length) ? measure_of(all, measure_, trace->body) : kNotKnown;
 }
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <Eigen/Core>
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <limits>
@@ -51,6 +53,8 @@ class MovementCheck {
     bool own = false;          ///< `point` is a substitute for `hand`: for a row of one hand it must be that hand
     bool other_own = false;    ///< the same for `other`
     ColumnValues column = {};  ///< of `recording_`; empty: computed from frames
+    std::array<ColumnValues, 6> ends = {};  ///< for is_of_ends in its place: x, height, forward of begin and of end
+    std::vector<float> angles = {};  ///< [row of `recording_`] where the finger points; infinite: not computed yet
   };
   /// How a row's value is tested.
   enum class Reading : std::uint8_t {
@@ -67,7 +71,13 @@ class MovementCheck {
   };
 
   void load(std::uint32_t recording);
+  void load_ends(Alternative& alternative, std::uint32_t recording);
   float series_of(const MovingRow& row, const MeasuredSpans& spans);
+  bool of_ends() const noexcept { return is_of_ends(condition_->movement.quantity); }
+  /// Whether the values of an alternative are stored; its column is then computed from its `ends`.
+  bool is_stored(const Alternative& alternative) const noexcept;
+  float stored_value(const Alternative& alternative, RowId row) const;
+  float computed_value(Alternative& alternative, const MovingRow& row, std::span<const TimeSpan> spans);
   static Reading reading_of(const Condition& condition, HandMeasure measure) noexcept;
   void append_fitting(std::span<const float> column, RowId first, std::vector<RowId>& rows) const;
   bool fits(float value) const;
@@ -83,9 +93,10 @@ class MovementCheck {
   std::optional<std::uint32_t> recording_;  ///< the one whose columns and bounds are loaded
   HandMeasure measure_ = HandMeasure::speed;
   Reading reading_ = Reading::within;
-  std::uint32_t mask_ = 0;  ///< for Reading::set
-  Bounds bounds_{};         ///< of `recording_`
-  bool scaled_ = false;     ///< the value's unit differs from the column's: it depends on the signer's shoulder width
+  std::uint32_t mask_ = 0;                           ///< for Reading::set
+  Bounds bounds_{};                                  ///< of `recording_`
+  Eigen::Vector3f locus_ = Eigen::Vector3f::Zero();  ///< of an aim, for `recording_`
+  bool scaled_ = false;  ///< the value's unit differs from the column's: it depends on the signer's shoulder width
   std::vector<float>
       series_values_;  ///< [row of `recording_`] value of a track or the gaze; infinite: not computed yet
 };

@@ -97,19 +97,29 @@ void MovementCheck::append_fitting(std::span<const float> column, RowId first, s
 }
 
 bool is_scannable(const MovementTerm& term) noexcept {
-  return !is_series(term.quantity) && term.point.kind != Point::Kind::part &&
+  return !is_series(term.quantity) && term.quantity != Quantity::at && term.point.kind != Point::Kind::part &&
          (!term.other || term.other->kind != Point::Kind::part);
 }
 
 bool MovementCheck::scan(std::uint32_t recording, RowId first, std::vector<RowId>& rows) {
-  if (is_series(condition_->movement.quantity)) return false;
+  if (!scannable()) return false;
   if (alternatives_.empty()) return true;
   load(recording);
-  if (std::ranges::any_of(alternatives_,
-                          [](const Alternative& alternative) { return alternative.column.values.empty(); }))
+  if (!std::ranges::all_of(alternatives_, [this](const Alternative& alternative) { return is_stored(alternative); }))
     return false;
   const std::size_t before = rows.size();
-  for (const Alternative& alternative : alternatives_) append_fitting(alternative.column.values, first, rows);
+  std::vector<float> values;
+  for (const Alternative& alternative : alternatives_) {
+    if (!of_ends()) {
+      append_fitting(alternative.column.values, first, rows);
+      continue;
+    }
+    values.resize(alternative.ends.front().values.size());
+    for (std::size_t row = 0; row < values.size(); ++row) {
+      values[row] = stored_value(alternative, static_cast<RowId>(row));
+    }
+    append_fitting(values, first, rows);
+  }
   if (alternatives_.size() < 2) return true;
   const auto from = rows.begin() + static_cast<std::ptrdiff_t>(before);
   std::sort(from, rows.end());

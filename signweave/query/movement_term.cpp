@@ -46,9 +46,13 @@ ValueKind value_kind(const MovementTerm& term) noexcept {
       return ValueKind::share;
     case Quantity::gaze:
     case Quantity::mean_gaze:
+    case Quantity::toward:
+    case Quantity::at:
       return ValueKind::angle;
     case Quantity::begin:
     case Quantity::end:
+    case Quantity::from:
+    case Quantity::to:
     case Quantity::max:
     case Quantity::min:
     case Quantity::any:
@@ -69,17 +73,24 @@ ValueKind value_kind(const MovementTerm& term) noexcept {
       return ValueKind::facing;
     case Component::contact:
       return ValueKind::contact;
+    case Component::azimuth:
+    case Component::elevation:
+      return ValueKind::angle;
     case Component::none:
     case Component::begin:
     case Component::end:
     case Component::least:
     case Component::most:
+    case Component::distance:
       break;
   }
   return ValueKind::length;
 }
 
 std::string to_string(const MovementTerm& term) {
+  if (is_aim(term.quantity)) {
+    return fmt::format("{} {} @{}", to_string(term.point), word_of(term.quantity), to_string(term.locus));
+  }
   const std::string of = is_gaze(term.quantity)     ? std::string(word_of(term.angle))
                          : is_series(term.quantity) ? in_quotes(term.track)
                                                     : to_string(term.point);
@@ -114,11 +125,12 @@ std::string to_string(const Point& point) {
 }
 
 std::string_view word_of(Quantity quantity) noexcept {
-  constexpr std::string_view kWords[] = {"speed", "mean_speed",   "acceleration", "mean_acceleration",
-                                         "path",  "displacement", "distance",     "contact",
-                                         "begin", "end",          "max",          "min",
-                                         "any",   "enters",       "track",        "mean_track",
-                                         "gaze",  "mean_gaze"};
+  constexpr std::string_view kWords[] = {"speed",        "mean_speed",   "acceleration", "mean_acceleration",
+                                         "path",         "displacement", "distance",     "contact",
+                                         "begin",        "end",          "from",         "to",
+                                         "max",          "min",          "any",          "enters",
+                                         "moves toward", "points at",    "track",        "mean_track",
+                                         "gaze",         "mean_gaze"};
   return kWords[static_cast<std::size_t>(quantity)];
 }
 
@@ -127,8 +139,9 @@ std::string_view word_of(GazeAngle angle) noexcept {
 }
 
 std::string_view word_of(Component component) noexcept {
-  constexpr std::string_view kWords[] = {"",        "x",       "height", "forward", "openness", "palm",
-                                         "fingers", "contact", "begin",  "end",     "least",    "most"};
+  constexpr std::string_view kWords[] = {"",      "x",       "height",  "forward",   "openness",
+                                         "palm",  "fingers", "contact", "begin",     "end",
+                                         "least", "most",    "azimuth", "elevation", "distance"};
   return kWords[static_cast<std::size_t>(component)];
 }
 

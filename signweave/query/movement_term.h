@@ -11,6 +11,7 @@
 #include "signweave/features/point_track.h"
 #include "signweave/rig/part.h"
 #include "signweave/rig/signer_space.h"
+#include "signweave/space/locus.h"
 
 namespace signweave {
 
@@ -45,21 +46,42 @@ enum class Quantity : std::uint8_t {
   contact,       ///< what a hand touches at some moment
   begin,         ///< a component at the first moment
   end,           ///< a component at the last moment
+  from,          ///< an angle or the distance, from between the shoulders, at the first moment
+  to,            ///< the same at the last moment
   max,           ///< maximum of a component
   min,           ///< minimum of a component
   any,           ///< a component at any one moment
   enters,        ///< a zone the point enters
+  toward,        ///< of a movement: degrees between its direction and that to a locus, which it comes nearer to
+  at,            ///< of an index finger at the last moment: degrees between its direction and that to a locus
   track,         ///< of a scalar track: maximum, or the component
   mean_track,
   gaze,  ///< of an angle of the gaze: maximum, or the component
   mean_gaze,
 };
+/// Those that are written before a parenthesis.
 inline constexpr std::array kQuantities = {
     Quantity::speed, Quantity::mean_speed,   Quantity::acceleration, Quantity::mean_acceleration,
     Quantity::path,  Quantity::displacement, Quantity::distance,     Quantity::contact,
-    Quantity::begin, Quantity::end,          Quantity::max,          Quantity::min,
-    Quantity::any,   Quantity::enters,       Quantity::track,        Quantity::mean_track,
-    Quantity::gaze,  Quantity::mean_gaze};
+    Quantity::begin, Quantity::end,          Quantity::from,         Quantity::to,
+    Quantity::max,   Quantity::min,          Quantity::any,          Quantity::enters,
+    Quantity::track, Quantity::mean_track,   Quantity::gaze,         Quantity::mean_gaze};
+/// Those that have a locus: right_hand moves toward @left, right_hand points at @left.
+inline constexpr std::array kAims = {Quantity::toward, Quantity::at};
+constexpr bool is_aim(Quantity quantity) noexcept {
+  return quantity == Quantity::toward || quantity == Quantity::at;
+}
+constexpr bool is_place(Quantity quantity) noexcept {
+  return quantity == Quantity::from || quantity == Quantity::to;
+}
+/// Whether its value follows from where the point is at the first and at the last moment.
+constexpr bool is_of_ends(Quantity quantity) noexcept {
+  return is_place(quantity) || quantity == Quantity::toward;
+}
+/// The tolerance of an aim if none is given, degrees. (ours)
+constexpr double tolerance_of(Quantity quantity) noexcept {
+  return quantity == Quantity::at ? 15 : 30;
+}
 /// Whether it is a scalar track or the gaze: one value per frame, without a point.
 constexpr bool is_series(Quantity quantity) noexcept {
   return quantity >= Quantity::track;
@@ -85,13 +107,17 @@ enum class Component : std::uint8_t {
   begin,
   end,
   least,
-  most
+  most,
+  azimuth,
+  elevation,
+  distance
 };
 
 /// An angle of the gaze (features/gaze.h).
 enum class GazeAngle : std::uint8_t { yaw, pitch };
 
-/// QUANTITY(POINT)[.COMPONENT], distance(POINT, POINT)[.COMPONENT], track("NAME")[.COMPONENT], gaze(ANGLE)[.COMPONENT].
+/// QUANTITY(POINT)[.COMPONENT], distance(POINT, POINT)[.COMPONENT], track("NAME")[.COMPONENT], gaze(ANGLE)[.COMPONENT],
+/// POINT moves toward @LOCUS, POINT points at @LOCUS.
 struct MovementTerm {
   Quantity quantity = Quantity::speed;
   Point point;
@@ -99,6 +125,7 @@ struct MovementTerm {
   Component component = Component::none;
   std::string track;                 ///< name of a scalar track
   GazeAngle angle = GazeAngle::yaw;  ///< for the gaze
+  LocusRef locus;                    ///< for an aim only; a built-in one, or numbers
   friend bool operator==(const MovementTerm&, const MovementTerm&) = default;
 };
 

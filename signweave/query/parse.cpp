@@ -10,6 +10,7 @@
 #include "signweave/core/text.h"
 #include "signweave/query/keywords.h"
 #include "signweave/query/lexer.h"
+#include "signweave/query/parse_aim.h"
 #include "signweave/query/parse_example.h"
 #include "signweave/query/parse_movement.h"
 #include "signweave/query/parse_time.h"
@@ -276,7 +277,9 @@ class Parser {
       return result;
     }
     const std::optional<Field> field = value_of(kFields, name.text);
-    if (name.text == "like") {
+    if (begins_aim(in_, name)) {
+      result.condition = parse_aim(in_, name);
+    } else if (name.text == "like") {
       result.condition = example(name);
     } else if (is_quantity(name.text) && (!field || in_.next_is("("))) {
       result.condition = parse_movement(in_, name);

@@ -22,6 +22,7 @@ constexpr std::array kPlaceComponents = {Component::height, Component::x, Compon
 constexpr std::array kHandComponents = {Component::height, Component::x,       Component::forward, Component::openness,
                                         Component::palm,   Component::fingers, Component::contact};
 constexpr std::array kExtentComponents = {Component::height, Component::x, Component::forward, Component::openness};
+constexpr std::array kAngleComponents = {Component::azimuth, Component::elevation, Component::distance};
 constexpr std::array kDistanceComponents = {Component::begin, Component::end, Component::most};
 constexpr std::array kPeakComponents = {Component::least};
 constexpr std::array kCompares = {Compare::equal,      Compare::not_equal, Compare::less,
@@ -139,8 +140,9 @@ class MovementParser {
     if (!token) {
       if (!needs_component(term.quantity)) return Component::none;
       const QueryToken& next = in_.peek();
-      in_.fail(next.begin, fmt::format("expected a component after '{}(…)', found {}; write {}({}).height", name.text,
-                                       QueryLexer::shown(next), name.text, to_string(term.point)));
+      in_.fail(next.begin, fmt::format("expected a component after '{}(…)', found {}; write {}({}).{}", name.text,
+                                       QueryLexer::shown(next), name.text, to_string(term.point),
+                                       is_place(term.quantity) ? "azimuth" : "height"));
     }
     const std::string word = fold_case(token->text.substr(1));
     const std::vector<std::string> known = components_of(term);
@@ -151,6 +153,11 @@ class MovementParser {
                fmt::format("'{}' has no component '{}'; leave '{}' out, or ask for begin({}){}", name.text,
                            printable(word), printable(token->text), to_string(term.point), printable(token->text)));
     }
+    const std::optional<Component> of_angles = value_of(kAngleComponents, word);
+    if (!is_known && is_place(term.quantity) && of_hand) refuse_in_favour(*token, term, word, false);
+    if (!is_known && (term.quantity == Quantity::begin || term.quantity == Quantity::end) && of_angles) {
+      refuse_in_favour(*token, term, word, true);
+    }
     if (!is_known && needs_component(term.quantity) && of_hand) {
       require_hand(term.point, token->begin, word);
       in_.fail(token->begin,
@@ -158,8 +165,18 @@ class MovementParser {
     }
     if (!is_known) refuse_component(in_, *token, known);
     if (of_hand) return *of_hand;
+    if (is_place(term.quantity)) return *of_angles;
     if (const auto of_distance = value_of(kDistanceComponents, word)) return *of_distance;
     return Component::least;
+  }
+
+  /// The component belongs to from(…) and to(…), or to begin(…) and end(…).
+  [[noreturn]] void refuse_in_favour(const QueryToken& token, const MovementTerm& term, std::string_view word,
+                                     bool place) {
+    const bool first = term.quantity == Quantity::begin || term.quantity == Quantity::from;
+    const Quantity has = place ? (first ? Quantity::from : Quantity::to) : (first ? Quantity::begin : Quantity::end);
+    in_.fail(token.begin, fmt::format("'{}' has no value in '{}'; use {}({}).{}", word, word_of(term.quantity),
+                                      word_of(has), to_string(term.point), word));
   }
 
   /// The words of the components that a quantity has.
@@ -175,6 +192,9 @@ class MovementParser {
       case Quantity::end:
       case Quantity::any:
         return hand ? words_of(kHandComponents) : words_of(kPlaceComponents);
+      case Quantity::from:
+      case Quantity::to:
+        return words_of(kAngleComponents);
       case Quantity::max:
       case Quantity::min:
         return hand ? words_of(kExtentComponents) : words_of(kPlaceComponents);

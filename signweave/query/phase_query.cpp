@@ -80,6 +80,11 @@ std::string to_string(const Condition& condition) {
   };
   if (condition.field == Field::unit) return std::string(word_of(condition.field));
   if (condition.field == Field::like) return std::visit(Printer(), condition.value);
+  if (condition.field == Field::movement && is_aim(condition.movement.quantity)) {
+    const auto& within = std::get<Amount>(condition.value);
+    const bool usual = within.value == tolerance_of(condition.movement.quantity);
+    return to_string(condition.movement) + (usual ? "" : " within " + to_string(within));
+  }
   const std::string field = condition.field == Field::tier       ? fmt::format("tier({})", in_quotes(condition.tier))
                             : condition.field == Field::movement ? to_string(condition.movement)
                                                                  : std::string(word_of(condition.field));

@@ -47,6 +47,7 @@ class RandomQueries {
       return result;
     }
     condition.field = Field::movement;
+    if (one_in(10)) return aiming(std::move(result));
     MovementTerm& term = condition.movement;
     term.quantity = kQuantities[below(kQuantities.size())];
     if (is_series(term.quantity)) return of_series(std::move(result));
@@ -59,6 +60,9 @@ class RandomQueries {
       if (one_in(2)) term.component = kOfDistance[below(3)];
     } else if (term.quantity == Quantity::speed || term.quantity == Quantity::acceleration) {
       if (one_in(2)) term.component = Component::least;
+    } else if (is_place(term.quantity)) {
+      constexpr Component kAngles[] = {Component::azimuth, Component::elevation, Component::distance};
+      term.component = kAngles[below(3)];
     } else if (needs_component(term.quantity)) {
       const unsigned of_hand = term.quantity == Quantity::max || term.quantity == Quantity::min ? 4 : 7;
       const bool place = term.point.kind == Point::Kind::part || term.quantity == Quantity::enters;
@@ -85,7 +89,7 @@ class RandomQueries {
         condition.value = amount(Unit::none);
         break;
       case ValueKind::angle:
-        condition.value = amount(Unit::degrees);
+        condition.value = Amount{static_cast<double>(below(360)) - 180, Unit::degrees};
         break;
       case ValueKind::height:
         condition.value = amount(length);
@@ -114,6 +118,20 @@ class RandomQueries {
   }
 
  private:
+  /// The rest of a condition on where a point moves or points.
+  Expression aiming(Expression result) {
+    constexpr const char* kLoci[] = {"left", "right", "self", "30/10", "-100/-20/0.5", "0.3,-0.1,0.8"};
+    Condition& condition = result.condition;
+    MovementTerm& term = condition.movement;
+    term.quantity = kAims[below(kAims.size())];
+    term.point = point(false);
+    if (term.quantity == Quantity::at && term.point.kind == Point::Kind::part) term.point = Point::own_hand();
+    term.locus = read_locus(kLoci[below(6)]);
+    condition.compare = Compare::less_equal;
+    condition.value = Amount{one_in(2) ? tolerance_of(term.quantity) : 1.0 + below(179), Unit::degrees};
+    return result;
+  }
+
   /// The rest of a condition on a scalar track or the gaze.
   Expression of_series(Expression result) {
     Condition& condition = result.condition;

@@ -19,7 +19,7 @@ const words: Words = {
     hands: ['both', 'right', 'left'],
     two_handed: ['one', 'symmetric', 'alternating', 'asymmetric'],
     points: ['hand', 'left_hand', 'right_hand', 'head', 'neck'],
-    functions: ['speed', 'mean_speed', 'path', 'distance', 'contact', 'begin', 'end', 'max', 'any', 'enters', 'track', 'gaze', 'like'],
+    functions: ['speed', 'mean_speed', 'path', 'distance', 'contact', 'begin', 'end', 'from', 'to', 'max', 'any', 'enters', 'track', 'gaze', 'like'],
   },
 }
 /** `|` is the caret. Returns the options, and the text with the first of them inserted. */
@@ -170,6 +170,14 @@ it('offers the operators over moments', () => {
   expect(at('enters(hand)|').labels).toEqual(['.height', '.x', '.forward'])
   expect(at('enters(hand).height |').labels).toEqual(['='])
   expect(at('enters(hand).height = |').labels).toEqual(['below_waist', 'waist', 'chest', 'shoulder', 'chin', 'mouth', 'forehead', 'above_head'])
+})
+
+it('offers angles of places', () => {
+  expect(at('from(right_hand)|').labels).toEqual(['.azimuth', '.elevation', '.distance'])
+  expect(at('to(hand).az|').chosen).toBe('to(hand).azimuth')
+  expect(at('to(hand).azimuth |').labels).toEqual(['>', '<', '>=', '<='])
+  expect(at('to(hand).azimuth > |').labels).toEqual(['-30 deg'])
+  expect(at('right_hand moves toward @left & pha|').chosen).toBe('right_hand moves toward @left & phase = ')
 })
 
 it('is silent if nothing in its lists is valid', () => {

@@ -1,10 +1,13 @@
 // Parts of the language listed in docs/query.md but not in the server's vocabulary.
 
+const kPlaces = ['.azimuth', '.elevation', '.distance']
 const kComponents = ['.height', '.x', '.forward', '.openness', '.palm', '.fingers', '.contact']
 /** The components of which a quantity requires one. */
 export const kComponentsOf: Readonly<Record<string, readonly string[]>> = {
   begin: kComponents,
   end: kComponents,
+  from: kPlaces,
+  to: kPlaces,
   any: kComponents,
   max: kComponents.slice(0, 4),
   min: kComponents.slice(0, 4),
@@ -54,6 +57,9 @@ export const kNumberOf: Readonly<Record<string, string>> = {
   '.x': '20 cm',
   '.forward': '30 cm',
   '.openness': '0.5',
+  '.azimuth': '-30 deg',
+  '.elevation': '10 deg',
+  '.distance': '1.2',
 }
 /** Fields that contain texts, in the order in which they are offered, and how they begin. */
 export const kTextFields: readonly string[] = ['gloss', 'phase', 'hand', 'hands', 'recording', 'signer']

@@ -8,7 +8,6 @@
 #include "signweave/choose/inflect.h"
 #include "signweave/choose/non_manuals.h"
 #include "signweave/choose/part_choice.h"
-#include "signweave/choose/refuse_space.h"
 #include "signweave/choose/select.h"
 #include "signweave/choose/space_gaze.h"
 #include "signweave/core/error.h"
@@ -65,7 +64,6 @@ PlaceQueue::PlaceQueue(SharedSigningCache& cache, OpenRecordings& open, const Pl
 
 void PlaceQueue::check(const Utterance& utterance, bool after_those_waiting) const {
   if (utterance.places.empty()) return;
-  refuse_space(utterance);
   const std::size_t waiting = after_those_waiting ? places_.size() - next_ : 0;
   if (waiting + utterance.places.size() > kMostPlaces) {
     throw Error(ErrorCode::bad_input, fmt::format("{} signs would wait, more than {}; send the others later",

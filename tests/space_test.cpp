@@ -61,9 +61,9 @@ Eigen::Vector3f mean_palm(const Synthesized& made, std::size_t number, Side side
   return sum / static_cast<float>(frames.size());
 }
 
-std::string why(std::string_view text) {
+std::string why(std::string_view text, const SynthesisOptions& options = {}) {
   try {
-    signed_as(text);
+    signed_as(text, options);
   } catch (const Error& error) {
     return error.what();
   }
@@ -150,6 +150,10 @@ TEST(SpaceTest, ReportsAndAnnotationSayWhatWasChanged) {
 }
 
 TEST(SpaceTest, FaultsAreOneLineWithTheirMend) {
+  SynthesisOptions options;
+  options.space.roles["VANNES"] = SpaceRole::none;
+  EXPECT_THAT(why("VANNES{to @left}", options),
+              HasSubstr("'VANNES' has no role in space, so it cannot go from or to a locus"));
   EXPECT_THAT(why("DEMAIN{at @170}"), HasSubstr("a locus at 170° is behind the signer; give one within 110°"));
 }
 

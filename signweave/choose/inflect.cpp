@@ -164,12 +164,19 @@ class Inflector {
     const LociOfSign wanted = wanted_loci(asked, loci_, place, changer.body());
     const LociOfSign captured = loci_of(clip, changer.body());
     const std::optional<float> off = distance(wanted, captured);
-    if (off && *off <= kCapturedLocus) {
+    const SpaceRole role = role_of(clip, stroke, changer, asked);
+    if (role == SpaceRole::none && !asked.at) {
+      throw Error(ErrorCode::bad_input,
+                  fmt::format("'{}' has no role in space, so it cannot go from or to a locus; give its role, such as "
+                              "{}=forward, or sign it at the locus: at @left",
+                              name_of(clip), name_of(clip)));
+    }
+    if (off && *off <= kCapturedLocus && role != SpaceRole::aim) {  // a finger can always point exactly
       ClipChange change = change_of({}, asked, ChangeBasis::captured);
       change.because = fmt::format("'{}' was captured within {:.0f}° of it", name_of(clip), std::max(1.0f, *off));
       return change;
     }
-    const Aimed aimed = aim_stroke(changer, stroke, role_of(clip, stroke, changer, asked), wanted, captured);
+    const Aimed aimed = aim_stroke(changer, stroke, role, wanted, captured);
     ClipChange change = change_of(aimed.fitted, asked, ChangeBasis::geometric);
     change.because = fmt::format("from one token of '{}'", name_of(clip));
     change.missed_mm = 1000 * std::max(aimed.begin_missed, aimed.end_missed);
@@ -193,8 +200,8 @@ class Inflector {
       }
     }
     const SpaceRole role = guessed_role(stroke, changer);
-    const bool places = asked.at && role != SpaceRole::aim;  // a sign can be made at a locus without a role
-    if (!places) {
+    const bool needs_role = !asked.at || role == SpaceRole::aim;  // any sign can be made at a locus
+    if (needs_role && role != SpaceRole::none) {
       notices_.push_back(
           {clip.recording,
            fmt::format("the role of '{}' is guessed from its movement: {}; give it in a table of roles to be sure",

@@ -198,7 +198,7 @@ FittedChange fit_change(StrokeChanger& changer, const CapturedStroke& stroke, co
       }
     }
     for (const float relief : kReliefs) {
-      if (take(1, relief, most_yaw, 0)) return;
+      if (take(1, relief, 0, 0) || (most_yaw != 0 && take(1, relief, most_yaw, 0))) return;
     }
     float reached = 0;
     float beyond = 1;

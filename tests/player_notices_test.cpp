@@ -23,7 +23,7 @@ std::string text_of(const std::string& code, const std::string& text) {
   return code + ": " + (code == "long_hold" ? text.substr(0, text.find("' is held") + 9) : text);
 }
 
-Texts told_by_file(const Utterance& utterance) {
+Texts notices_of_file(const Utterance& utterance) {
   Texts texts;
   for (const Notice& notice : synthesize(corpus(), utterance).result.notices) {
     if (!notice.code.empty()) texts.insert(text_of(notice.code, notice.text));
@@ -31,7 +31,7 @@ Texts told_by_file(const Utterance& utterance) {
   return texts;
 }
 
-Texts told_in(const Shown& shown) {
+Texts notices_in(const Shown& shown) {
   Texts texts;
   for (const PlayerEvent& event : shown.events) {
     if (event.kind == Kind::notice && !event.code.empty()) texts.insert(text_of(event.code, event.text));
@@ -80,12 +80,12 @@ TEST(PlayerNotices, AreThoseOfAFile) {
     }
     Texts expected;
     try {
-      expected = told_by_file(parse_utterance(text));
+      expected = notices_of_file(parse_utterance(text));
     } catch (const Error&) {  // its strokes cannot be signed together
       continue;
     }
     const Shown shown = shown_whole(text, {});
-    EXPECT_EQ(told_in(shown), expected) << "seed " << seed << ": " << text;
+    EXPECT_EQ(notices_in(shown), expected) << "seed " << seed << ": " << text;
     codes.merge(codes_in(shown));
   }
   EXPECT_THAT(codes, testing::IsSupersetOf({"symmetry", "long_hold", "weak_drop"}));
@@ -95,7 +95,7 @@ TEST(PlayerNotices, AreThoseOfAFile) {
 constexpr const char* kRare = "[VANNES#1 | weak: RENNES#1] DEMAIN#1 [BROUILLARD#1 | weak: hold] MATIN#1";
 
 TEST(PlayerNotices, ComeOnceInALoopAndAfterJumps) {
-  const Texts expected = told_by_file(parse_utterance(kRare));
+  const Texts expected = notices_of_file(parse_utterance(kRare));
   ASSERT_THAT(expected, UnorderedElementsAre(HasSubstr("symmetry: "), HasSubstr("weak_drop: ")));
   Player player(shared_cache(), {.loop = true});
   player.sign(parse_utterance(kRare));
@@ -104,15 +104,15 @@ TEST(PlayerNotices, ComeOnceInALoopAndAfterJumps) {
   player.seek(Milliseconds(200));
   show(player, shown, 1'500);
   EXPECT_GT(shown.count(Kind::place), 12u);
-  EXPECT_EQ(told_in(shown), expected);
+  EXPECT_EQ(notices_in(shown), expected);
   player.sign(parse_utterance(kRare));  // another utterance
   shown.events.clear();
   show(player, shown, 1'500);
-  EXPECT_EQ(told_in(shown), expected);
+  EXPECT_EQ(notices_in(shown), expected);
 }
 
-TEST(PlayerNotices, AreToldLaterIfAJumpPreventsThem) {
-  const Texts expected = told_by_file(parse_utterance(kRare));
+TEST(PlayerNotices, ComeLaterIfAJumpPreventsThem) {
+  const Texts expected = notices_of_file(parse_utterance(kRare));
   for (const std::size_t shown_before : {1u, 30u, 90u, 150u, 250u}) {
     Player player(shared_cache(), {.idle = Idle::end});
     player.sign(parse_utterance(kRare));
@@ -121,11 +121,11 @@ TEST(PlayerNotices, AreToldLaterIfAJumpPreventsThem) {
     player.prepare(64);
     player.seek(Milliseconds(0));
     show(player, shown);
-    EXPECT_EQ(told_in(shown), expected) << shown_before;
+    EXPECT_EQ(notices_in(shown), expected) << shown_before;
   }
 }
 
-TEST(PlayerNotices, TellThePlaceAndTheMoment) {
+TEST(PlayerNotices, HaveAPlaceAndAMoment) {
   const Shown shown = shown_whole(kRare, {});
   const auto notice = std::ranges::find(shown.events, "weak_drop", &PlayerEvent::code);
   ASSERT_NE(notice, shown.events.end());
@@ -154,7 +154,7 @@ TEST(PlayerNotices, AreErrorsOfAStrictStream) {
       }
     }
     EXPECT_THAT(refused, testing::ElementsAre(HasSubstr("(symmetry)"), HasSubstr("(weak_drop)")));
-    EXPECT_THAT(told_in(shown), IsEmpty());
+    EXPECT_THAT(notices_in(shown), IsEmpty());
     EXPECT_THAT(shown.tokens(), "DEMAIN#1 MATIN#1 ");
     EXPECT_TRUE(player.idle());
   }

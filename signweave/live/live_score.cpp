@@ -101,9 +101,9 @@ void LiveScore::end_at_last_sign() {
     timeline_.append({end(), step->end()}, step->made, step->begin);
   }
   state_ = State::ended;
-  tell({.kind = PlayerEvent::Kind::end,
-        .frame = static_cast<std::uint64_t>(end()),
-        .at = end_of_last_sign() + time_of(end() - core_end)});
+  add_event({.kind = PlayerEvent::Kind::end,
+             .frame = static_cast<std::uint64_t>(end()),
+             .at = end_of_last_sign() + time_of(end() - core_end)});
 }
 
 void LiveScore::go_to_rest() {
@@ -113,9 +113,9 @@ void LiveScore::go_to_rest() {
   timeline_.append({end(), rest->placed.core}, std::move(made));
   chain_.add(rest);
   state_ = State::resting;
-  tell({.kind = PlayerEvent::Kind::rest,
-        .frame = static_cast<std::uint64_t>(end()),
-        .at = end_of_last_sign() + time_of(made_frames)});
+  add_event({.kind = PlayerEvent::Kind::rest,
+             .frame = static_cast<std::uint64_t>(end()),
+             .at = end_of_last_sign() + time_of(made_frames)});
   timeline_.append({end(), end() + kRestFramesAtOnce}, rest);
 }
 
@@ -180,11 +180,11 @@ LiveScore::ClipPtr LiveScore::shown_clip(Motion motion, std::int64_t first) cons
 
 void LiveScore::cut(std::int64_t end) {
   curves_.cut(end);
-  while (!events_.empty() && events_.back().event.frame >= static_cast<std::uint64_t>(end)) {
-    const auto& [event, once] = events_.back();
-    if (once) told_.of_stream.erase(*once);
-    if (!event.code.empty()) told_.of_places.erase({event.place, event.code, event.text});
-    events_.pop_back();
+  while (!reports_.events.empty() && reports_.events.back().event.frame >= static_cast<std::uint64_t>(end)) {
+    const auto& [event, once] = reports_.events.back();
+    if (once) reports_.of_stream.erase(*once);
+    if (!event.code.empty()) reports_.of_places.erase({event.place, event.code, event.text});
+    reports_.events.pop_back();
   }
   timeline_.cut(end);
 }
@@ -251,7 +251,7 @@ void LiveScore::forget_places() {
   const std::size_t count = queue_.forget();
   if (count == 0) return;
   parts_.clear();
-  told_.of_places.clear();
+  reports_.of_places.clear();
   std::erase_if(round_.entries, [&](const Entry& entry) { return entry.first < count; });
   for (Entry& entry : round_.entries) {
     entry.first -= count;
@@ -270,7 +270,7 @@ void LiveScore::replace(const Utterance& utterance, std::int64_t next, const Fra
   const bool finished = finish_sign(next, shown);
   queue_.replace(utterance);
   parts_.clear();
-  told_.of_places.clear();
+  reports_.of_places.clear();
   round_ = {};
   last_round_ = {};
   last_sign_.signs.reset();
@@ -375,7 +375,7 @@ bool LiveScore::seek(std::int64_t at, std::int64_t next) {
   }
   cut(next);
   timeline_.restart(next);
-  tell({.kind = PlayerEvent::Kind::seek, .frame = static_cast<std::uint64_t>(next), .at = time_of(at)});
+  add_event({.kind = PlayerEvent::Kind::seek, .frame = static_cast<std::uint64_t>(next), .at = time_of(at)});
   if (made != nullptr) {
     chain_.begin(std::move(before_it));
     chain_.add(clip);
@@ -431,9 +431,10 @@ void LiveScore::let_go(std::int64_t taken) noexcept {
 }
 
 std::optional<PlayerEvent> LiveScore::take_event(std::int64_t frame) noexcept {
-  if (events_.empty() || events_.front().event.frame > static_cast<std::uint64_t>(frame)) return std::nullopt;
-  std::optional<PlayerEvent> event(std::move(events_.front().event));
-  events_.pop_front();
+  if (reports_.events.empty() || reports_.events.front().event.frame > static_cast<std::uint64_t>(frame))
+    return std::nullopt;
+  std::optional<PlayerEvent> event(std::move(reports_.events.front().event));
+  reports_.events.pop_front();
   return event;
 }
 

@@ -71,10 +71,10 @@ class LiveScore {
   /// Prefetches the memory of take_event(), in two steps.
   void prefetch_state() const noexcept {
     prefetch(&state_, sizeof state_);
-    prefetch(&events_, sizeof events_);
+    prefetch(&reports_.events, sizeof reports_.events);
   }
   void prefetch_event() const noexcept {
-    if (!events_.empty()) prefetch(&events_.front().event.frame, sizeof(std::uint64_t));
+    if (!reports_.events.empty()) prefetch(&reports_.events.front().event.frame, sizeof(std::uint64_t));
   }
   /// True if nothing is left to sign from this frame on.
   bool idle(std::int64_t frame) const noexcept;
@@ -135,20 +135,21 @@ class LiveScore {
   /// An event that is not taken yet.
   struct Pending {
     PlayerEvent event;
-    std::optional<std::string> once = {};  ///< its entry in Told::of_stream
+    std::optional<std::string> once = {};  ///< its entry in Reports::of_stream
   };
   /// A notice of lint_channels, with the first place of its step.
-  struct ToldNotice {
+  struct ReportedNotice {
     std::size_t place = 0;
     std::string code;
     std::string text;
-    auto operator<=>(const ToldNotice&) const = default;
+    auto operator<=>(const ReportedNotice&) const = default;
   };
-  /// What is not reported again.
-  struct Told {
+  /// Events, and what is not reported again.
+  struct Reports {
+    std::deque<Pending> events;  ///< `frame` counts the timeline's frames
     /// Recordings whose retargeting was reported; "" for how the stream is signed.
     std::set<std::string> of_stream;
-    std::set<ToldNotice> of_places;  ///< of this utterance
+    std::set<ReportedNotice> of_places;  ///< of this utterance
   };
   /// Recordings with other skeletons.
   struct OtherBodies {
@@ -167,7 +168,7 @@ class LiveScore {
   void leave_idle();
   void extended(LiveClip& clip) const;
   void notify(std::int64_t frame, std::size_t place, std::string text);
-  void tell(PlayerEvent event, std::optional<std::string> once = {});
+  void add_event(PlayerEvent event, std::optional<std::string> once = {});
   void report_setup(const Entry& entry);
   void report_channels(const Entry& first, std::int64_t from);
   void sign_next();
@@ -229,8 +230,7 @@ class LiveScore {
 
   LiveCurves curves_;  ///< over the timeline's frames
   Timeline timeline_;
-  std::deque<Pending> events_;  ///< `frame` counts the timeline's frames
-  Told told_;
+  Reports reports_;
 };
 
 }  // namespace signweave

@@ -197,9 +197,9 @@ void LiveScore::go_to_rest_in_channels() {
   const std::int64_t core_end = tail().placed.core_end();
   take_step({.body = {rest}, .rests = true});
   state_ = State::resting;
-  tell({.kind = PlayerEvent::Kind::rest,
-        .frame = static_cast<std::uint64_t>(end()),
-        .at = end_of_last_sign() + time_of(end() - core_end)});
+  add_event({.kind = PlayerEvent::Kind::rest,
+             .frame = static_cast<std::uint64_t>(end()),
+             .at = end_of_last_sign() + time_of(end() - core_end)});
   timeline_.append({end(), end() + kRestFramesAtOnce}, rest);
 }
 
@@ -328,7 +328,7 @@ void LiveScore::seek_in_step(std::size_t index, std::int64_t at, std::int64_t ne
   timeline_.append({next, std::min(chain_.core_end(), step->end())}, step->made, step->begin);
   // The last clip may have been continued as captured since.
   timeline_.append({std::max(next, step->end()), chain_.core_end()}, chain_.back());
-  tell({.kind = PlayerEvent::Kind::seek, .frame = static_cast<std::uint64_t>(next), .at = time_of(at)});
+  add_event({.kind = PlayerEvent::Kind::seek, .frame = static_cast<std::uint64_t>(next), .at = time_of(at)});
   round_.entries.resize(index + 1);
   for (std::size_t i = first; i <= index; ++i) round_.entries[i].step = step;
   queue_.continue_at(round_.entries.back().last + 1);

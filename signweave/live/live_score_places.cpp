@@ -56,21 +56,21 @@ std::shared_ptr<const MotionSource> LiveScore::on_skeleton(const RecordingInfo& 
 }
 
 /// Adds an event after those of earlier frames and of its own.
-void LiveScore::tell(PlayerEvent event, std::optional<std::string> once) {
-  events_.push_back({.event = std::move(event), .once = std::move(once)});
+void LiveScore::add_event(PlayerEvent event, std::optional<std::string> once) {
+  reports_.events.push_back({.event = std::move(event), .once = std::move(once)});
 }
 
 /// Reports how the stream is signed, and how a recording with another skeleton is retargeted, once each.
 void LiveScore::report_setup(const Entry& entry) {
   const auto report = [&](const std::vector<Notice>& notices, const std::string& once) {
-    if (!told_.of_stream.insert(once).second) return;
+    if (!reports_.of_stream.insert(once).second) return;
     for (const Notice& notice : notices) {
-      tell({.kind = PlayerEvent::Kind::notice,
-            .frame = static_cast<std::uint64_t>(entry.clip->placed.core),
-            .place = entry.first + queue_.forgotten(),
-            .recording = notice.where,
-            .text = notice.text},
-           once);
+      add_event({.kind = PlayerEvent::Kind::notice,
+                 .frame = static_cast<std::uint64_t>(entry.clip->placed.core),
+                 .place = entry.first + queue_.forgotten(),
+                 .recording = notice.where,
+                 .text = notice.text},
+                once);
     }
   };
   report(setup_->notices, {});
@@ -82,21 +82,21 @@ void LiveScore::report_setup(const Entry& entry) {
 /// that is signed again after a jump, report nothing of the same kind for it; nothing is said twice in an utterance.
 void LiveScore::report_channels(const Entry& first, std::int64_t from) {
   const std::size_t place = first.first + queue_.forgotten();
-  std::set<ToldNotice> now;
+  std::set<ReportedNotice> now;
   for (const Notice& notice : first.step->notices) {
-    const bool is_told = std::ranges::any_of(told_.of_places, [&](const ToldNotice& told) {
-      return told.text == notice.text || (told.place == place && told.code == notice.code);
+    const bool is_known = std::ranges::any_of(reports_.of_places, [&](const ReportedNotice& one) {
+      return one.text == notice.text || (one.place == place && one.code == notice.code);
     });
-    if (is_told || !now.insert({place, notice.code, notice.text}).second) continue;
+    if (is_known || !now.insert({place, notice.code, notice.text}).second) continue;
     const std::int64_t frame = std::max(first.clip->placed.core, from);
-    tell({.kind = PlayerEvent::Kind::notice,
-          .frame = static_cast<std::uint64_t>(frame),
-          .place = place,
-          .at = time_of(first.core + frame - first.clip->placed.core),
-          .text = notice.text,
-          .code = notice.code});
+    add_event({.kind = PlayerEvent::Kind::notice,
+               .frame = static_cast<std::uint64_t>(frame),
+               .place = place,
+               .at = time_of(first.core + frame - first.clip->placed.core),
+               .text = notice.text,
+               .code = notice.code});
   }
-  told_.of_places.merge(now);
+  reports_.of_places.merge(now);
 }
 
 void LiveScore::rest_in(const std::string& recording) {
@@ -233,9 +233,9 @@ void LiveScore::extended(LiveClip& clip) const {
 void LiveScore::notify(std::int64_t frame, std::size_t place, std::string text) {
   const auto at = static_cast<std::uint64_t>(frame);
   const auto after =
-      std::ranges::upper_bound(events_, at, {}, [](const Pending& pending) { return pending.event.frame; });
-  events_.insert(after,
-                 {.event = {.kind = PlayerEvent::Kind::notice, .frame = at, .place = place, .text = std::move(text)}});
+      std::ranges::upper_bound(reports_.events, at, {}, [](const Pending& pending) { return pending.event.frame; });
+  reports_.events.insert(
+      after, {.event = {.kind = PlayerEvent::Kind::notice, .frame = at, .place = place, .text = std::move(text)}});
 }
 
 /// The place follows the tail in its recording, so the tail is extended.
@@ -262,21 +262,21 @@ void LiveScore::report_places(const Entry& entry, std::int64_t from) {
     const Candidate& candidate = queue_.chosen(place);
     const std::int64_t frame = placed.frame_of(candidate.core.begin);
     for (const Sign& sign : candidate.left_out) {
-      tell({.kind = PlayerEvent::Kind::notice,
-            .frame = static_cast<std::uint64_t>(std::max(frame, from)),
-            .place = place + queue_.forgotten(),
-            .recording = entry.clip->captured.recording,
-            .text = notice_left_out(entry.clip->captured.recording, sign).text});
+      add_event({.kind = PlayerEvent::Kind::notice,
+                 .frame = static_cast<std::uint64_t>(std::max(frame, from)),
+                 .place = place + queue_.forgotten(),
+                 .recording = entry.clip->captured.recording,
+                 .text = notice_left_out(entry.clip->captured.recording, sign).text});
     }
     if (frame < from) continue;
-    tell({.kind = PlayerEvent::Kind::place,
-          .frame = static_cast<std::uint64_t>(frame),
-          .place = place + queue_.forgotten(),
-          .gloss = candidate.signs.empty() ? std::string() : candidate.gloss(),
-          .token = candidate.token,
-          .recording = entry.clip->captured.recording,
-          .clip = entry.clip->number,
-          .at = time_of(entry.core + frame - placed.core)});
+    add_event({.kind = PlayerEvent::Kind::place,
+               .frame = static_cast<std::uint64_t>(frame),
+               .place = place + queue_.forgotten(),
+               .gloss = candidate.signs.empty() ? std::string() : candidate.gloss(),
+               .token = candidate.token,
+               .recording = entry.clip->captured.recording,
+               .clip = entry.clip->number,
+               .at = time_of(entry.core + frame - placed.core)});
   }
 }
 

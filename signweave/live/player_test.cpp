@@ -210,17 +210,17 @@ TEST(PlayerNotices, SayOnceHowTheStreamIsSigned) {
   player.sign(parse_utterance("CINQ"));
   player.prepare(64);
   Taker taker(player);
-  std::size_t told = 0;
+  std::size_t reported = 0;
   std::size_t unseen = 0;
   const auto take = [&](std::size_t most) {
     for (std::size_t i = 0; i < most && player.prepare(1) > 0 && taker.take(player); ++i) {
       while (const auto event = player.take_event()) {
-        if (event->text.find("no measurable transitions") != std::string::npos) ++told;
+        if (event->text.find("no measurable transitions") != std::string::npos) ++reported;
         if (event->text.find("is not seen") != std::string::npos) ++unseen;
       }
     }
   };
-  for (int i = 0; i < 1'000 && told == 0; ++i) take(1);
+  for (int i = 0; i < 1'000 && reported == 0; ++i) take(1);
   player.append(parse_utterance("SIX{brows up}"));  // the stream has no tracks for it, which is a notice
   player.prepare(64);
   player.seek(Milliseconds(0));  // before that notice is taken
@@ -228,7 +228,7 @@ TEST(PlayerNotices, SayOnceHowTheStreamIsSigned) {
   take(10'000);
   EXPECT_TRUE(player.idle());
   EXPECT_EQ(unseen, 1u);
-  EXPECT_EQ(told, 1u);
+  EXPECT_EQ(reported, 1u);
 }
 
 }  // namespace

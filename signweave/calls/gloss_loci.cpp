@@ -13,19 +13,19 @@ namespace {
 using Eigen::Vector3f;
 
 /// A place with what metres are at its signer.
-struct Place {
+struct PalmPlace {
   Vector3f at;
   float shoulder_width;
 };
 
-double apart(const Place& a, const Place& b) {
+double apart(const PalmPlace& a, const PalmPlace& b) {
   return static_cast<double>((a.at - b.at).norm() * 0.5f * (a.shoulder_width + b.shoulder_width));
 }
 
 /// Takes the place nearest to the middle, then always the farthest from all taken ones.
-std::size_t count_places(std::span<const Place> places, const Place& middle) {
+std::size_t count_places(std::span<const PalmPlace> places, const PalmPlace& middle) {
   std::vector<double> distance(places.size());
-  std::ranges::transform(places, distance.begin(), [&](const Place& place) { return apart(place, middle); });
+  std::ranges::transform(places, distance.begin(), [&](const PalmPlace& place) { return apart(place, middle); });
   std::size_t next = static_cast<std::size_t>(std::ranges::min_element(distance) - distance.begin());
   std::size_t count = 0;
   for (bool first = true;; first = false) {
@@ -57,16 +57,16 @@ std::string_view nearest_locus(const Vector3f& place, const SignerBody& body) {
   return nearest;
 }
 
-PlaceStats stats_of(std::span<const Place> places, const SignerBody& body) {
-  Place mean{.at = Vector3f::Zero(), .shoulder_width = 0};
-  for (const Place& place : places) {
+PlaceStats stats_of(std::span<const PalmPlace> places, const SignerBody& body) {
+  PalmPlace mean{.at = Vector3f::Zero(), .shoulder_width = 0};
+  for (const PalmPlace& place : places) {
     mean.at += place.at / static_cast<float>(places.size());
     mean.shoulder_width += place.shoulder_width / static_cast<float>(places.size());
   }
   const auto ahead = static_cast<double>(angles_of(mean.at).azimuth);
   std::vector<double> azimuths, elevations, distances;
   double squares = 0;
-  for (const Place& place : places) {
+  for (const PalmPlace& place : places) {
     const SpaceAngles angles = angles_of(place.at);
     azimuths.push_back(near_angle(static_cast<double>(angles.azimuth), ahead));
     elevations.push_back(static_cast<double>(angles.elevation));
@@ -93,10 +93,12 @@ Side hand_that_goes(std::span<const PlacedToken* const> tokens) {
   return longer[0] > longer[1] ? Side::left : Side::right;
 }
 
-Heading heading_of(std::span<const Place> begins, std::span<const Place> ends) {
+Heading heading_of(std::span<const PalmPlace> begins, std::span<const PalmPlace> ends) {
   std::vector<double> outward;
   for (std::size_t i = 0; i < begins.size(); ++i) {
-    const auto level = [](const Place& place) { return std::hypot(place.at.x(), place.at.z()) * place.shoulder_width; };
+    const auto level = [](const PalmPlace& place) {
+      return std::hypot(place.at.x(), place.at.z()) * place.shoulder_width;
+    };
     outward.push_back(static_cast<double>(level(ends[i]) - level(begins[i])));
   }
   const double median = distribution_of(outward).median();
@@ -109,7 +111,7 @@ std::optional<GlossLoci> loci_of(std::span<const PlacedToken* const> tokens, con
   loci.gloss = tokens.front()->gloss;
   const Side moving = hand_that_goes(tokens);
   const bool annotated = std::ranges::any_of(tokens, [](const PlacedToken* token) { return !token->inferred; });
-  std::vector<Place> begins, ends;
+  std::vector<PalmPlace> begins, ends;
   std::array<std::size_t, 2> hands{};
   for (const PlacedToken* token : tokens) {
     const Side hand = token->hand == Hand::both ? moving : token->hand == Hand::left ? Side::left : Side::right;

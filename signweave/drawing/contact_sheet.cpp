@@ -200,6 +200,36 @@ void look_from_above(ModelPose& pose, SignerSpace& space) {
   space.model_from_signer = tilt * space.model_from_signer;
 }
 
+/// An ellipse about a point, turned so that its width is along `across`.
+void put_ellipse(const FigureView& view, const Vector3f& middle, const Vector3f& across, float wide, float deep,
+                 const char* fill, std::string& out) {
+  const double turn =
+      -std::atan2(static_cast<double>(across.y()), static_cast<double>(across.x())) * 180 / std::numbers::pi;
+  fmt::format_to(std::back_inserter(out),
+                 "<ellipse cx=\"{0:.1f}\" cy=\"{1:.1f}\" rx=\"{2:.1f}\" ry=\"{3:.1f}\" fill=\"{4}\" "
+                 "stroke=\"#6b6a72\" transform=\"rotate({5:.1f} {0:.1f} {1:.1f})\"/>\n",
+                 view.x(middle), view.y(middle), view.scale * static_cast<double>(wide),
+                 view.scale * static_cast<double>(deep), fill, turn);
+}
+
+/// The trunk below a figure that is seen from above, about the middle of its shoulders.
+void draw_trunk_from_above(const SignerSpace& space, const FigureView& view, std::string& out) {
+  put_ellipse(view, space.origin, space.model_from_signer * Vector3f::UnitX(), 0.6f * space.unit, 0.26f * space.unit,
+              "#cdd2db", out);
+}
+
+/// The head on top of a figure that is seen from above: hair, with the nose before it.
+void draw_head_from_above(const FigurePlan& plan, const ModelPose& pose, float unit, const FigureView& view,
+                          std::string& out) {
+  if (!plan.head) return;
+  const auto joint = static_cast<std::size_t>(plan.head->joint);
+  const Vector3f left = pose.rotations[joint] * plan.head->left;
+  const Vector3f ahead = Vector3f(left.y(), -left.x(), 0).normalized();
+  const Vector3f middle = pose.positions[joint] + 0.06f * unit * ahead;
+  put_ellipse(view, middle + 0.27f * unit * ahead, left, 0.05f * unit, 0.06f * unit, "#e2c4ac", out);
+  put_ellipse(view, middle, left, 0.22f * unit, 0.27f * unit, "#5e493a", out);
+}
+
 /// Gives a figure room for the loci that are within reach.
 void include_loci(const std::vector<MarkedLocus>& loci, const SignerSpace& space, Extent& figure) {
   for (const MarkedLocus& locus : loci) {
@@ -238,7 +268,7 @@ std::string contact_sheet(const Motion& motion, const ContactSheetOptions& optio
   }
   const Skeleton& skeleton = motion.skeleton();
   const RigMap rig = options.rig ? *options.rig : map_rig(motion);
-  const bool has_space = options.signing_space || !options.loci.empty();
+  const bool has_space = options.signing_space || options.from_above || !options.loci.empty();
   const std::optional<Signer> signer = signer_of(motion, rig, has_space);
   const bool zones = options.signing_space && !options.from_above;
 
@@ -291,7 +321,9 @@ std::string contact_sheet(const Motion& motion, const ContactSheetOptions& optio
                    x, y, kCellWidth - 4, kCellHeight - 4);
     const FigureView view = view_of(figures[cell], common);
     if (zones) draw_signing_space(signer->body, spaces[cell], view, kCellWidth, kCellHeight - kCaption, out);
+    if (options.from_above) draw_trunk_from_above(spaces[cell], view, out);
     draw_figure(skeleton, plan, poses[cell], figure_face(motion, shown[cell].frame), view, out);
+    if (options.from_above) draw_head_from_above(plan, poses[cell], spaces[cell].unit, view, out);
     if (signer) draw_loci(options.loci, spaces[cell], view, kCellWidth, kCellHeight - kCaption, out);
     const double seconds = static_cast<double>(shown[cell].frame) * motion.rate().frame_time().count();
     const std::size_t given = shown[cell].given;

@@ -37,7 +37,8 @@ struct ContactSheetOptions {
 /// eyes or the motion has a face's scalar tracks, a face shows them. Sides, hands and head come from joint names; if
 /// the names do not identify arms and hips, the body's shape does; what neither identifies is drawn in grey. The same
 /// input gives the same bytes. Throws Error{bad_input} for a motion without frames, a frame outside the motion, or no
-/// columns; Error{not_found} if a signing space or loci are requested and the motion has none.
+/// columns; Error{not_found} if a signing space, loci or a view from above is requested and the motion has no
+/// shoulders.
 std::string contact_sheet(const Motion& motion, const ContactSheetOptions& options = {});
 
 }  // namespace signweave

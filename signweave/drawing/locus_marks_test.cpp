@@ -108,7 +108,7 @@ TEST(LocusPlot, ShowsBothEndsInBothViewsAndTheLociWithinThem) {
   const pugi::xml_document document = read(svg);
   EXPECT_EQ(document.select_nodes("//g/circle[@fill='#0072b2']").size(), 4U);
   EXPECT_EQ(document.select_nodes("//g/circle[@stroke='#d55e00']").size(), 4U);
-  EXPECT_EQ(rings(document).size(), 4U) << "in the key, @left twice, @addressee from the front only";
+  EXPECT_EQ(rings(document).size(), 3U) << "in the key, and @left twice";
   EXPECT_THAT(svg, HasSubstr("GIVE &lt;2&gt;"));
   EXPECT_THAT(svg, HasSubstr("<title>give &amp; take</title>"));
   EXPECT_THAT(svg, HasSubstr(">forehead</text>"));

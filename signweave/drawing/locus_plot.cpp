@@ -163,6 +163,10 @@ void draw_view(SpaceCanvas& canvas, const SpaceView& view, const LocusPanel& pan
   canvas.words(view.x(-static_cast<double>(kCentre)) - 4, foot, kSmall, "end", kZoneText, name_of(Across::right));
   canvas.words(view.x(0.0), foot, kSmall, "middle", kZoneText, name_of(Across::centre));
   canvas.words(view.x(static_cast<double>(kCentre)) + 4, foot, kSmall, "start", kZoneText, name_of(Across::left));
+  for (const MarkedLocus& locus : loci) {
+    if (!(locus.at.norm() <= kFarthestDrawn) || !view.shows(locus.at)) continue;
+    draw_locus({.x = view.x(locus.at), .y = view.y(locus.at), .size = kSmall}, locus.name, canvas.text);
+  }
   for (const StrokeEnds& token : panel.tokens) {
     canvas.put("<path d=\"M{:.1f} {:.1f}L{:.1f} {:.1f}\" stroke=\"{}\" stroke-width=\"1\" stroke-opacity=\"0.45\"/>",
                view.x(token.begin), view.y(token.begin), view.x(token.end), view.y(token.end), kSpaceInk);
@@ -172,10 +176,6 @@ void draw_view(SpaceCanvas& canvas, const SpaceView& view, const LocusPanel& pan
     canvas.begin(view.x(token.begin), view.y(token.begin));
     canvas.end(view.x(token.end), view.y(token.end));
     canvas.put("</g>");
-  }
-  for (const MarkedLocus& locus : loci) {
-    if (!locus.at.allFinite() || !view.shows(locus.at)) continue;
-    draw_locus({.x = view.x(locus.at), .y = view.y(locus.at), .size = kSmall}, locus.name, canvas.text);
   }
 }
 

@@ -26,7 +26,7 @@ struct LocusPanel {
 /// Draws the signing space from the front, as the addressee sees it, and from above, with the ends of strokes, as an
 /// SVG: a row for each gloss, an open circle for each begin, a filled one for each end, and a line between them. The
 /// signer's left is on the right in both; from above, the signer looks down the page. `body` gives the heights; loci
-/// outside the picture are left out. Text of any script is escaped; tokens must be finite.
+/// outside the picture or beyond kFarthestDrawn are left out. Text of any script is escaped; tokens must be finite.
 std::string locus_plot(std::span<const LocusPanel> panels, const SignerBody& body, std::span<const MarkedLocus> loci);
 
 }  // namespace signweave

@@ -37,12 +37,25 @@ struct RandomRows {
   explicit RandomRows(std::uint32_t seed, TestMovement::From from = TestMovement::From::columns) : movement(from) {
     std::mt19937 random(seed);
     std::vector<MovementRow> rows;
-    for (int i = 0; i < 20; ++i) {
-      const Milliseconds begin(random() % 1'200);
+    for (int i = 0; i < 4; ++i) {
+      const Milliseconds begin(random() % 500);
       spans.push_back({begin, begin + Milliseconds(20 + random() % 300)});
       rows.push_back({.span = spans.back()});
     }
-    movement.add(TestMotion(90, seed), rows);
+    TestMotion moving(50, seed);
+    bend_fingers(moving.motion, seed);
+    movement.add(std::move(moving), rows);
+  }
+  /// Bends the outer joints of the index fingers, now more and now less.
+  static void bend_fingers(Motion& motion, std::uint32_t seed) {
+    for (std::size_t joint = 0; joint < motion.skeleton().joint_count(); ++joint) {
+      const std::string& name = motion.skeleton().joints()[joint].name;
+      if (!name.ends_with("HandIndex2") && !name.ends_with("HandIndex3")) continue;
+      for (std::int64_t frame = 0; frame < motion.frame_count(); ++frame) {
+        const float bend = 0.7f * (1 + std::sin(0.2f * static_cast<float>(frame) + static_cast<float>(seed % 100)));
+        motion.pose(frame).rotations[joint] = Eigen::AngleAxisf(bend, Eigen::Vector3f::UnitZ());
+      }
+    }
   }
   bool holds(const Condition& condition, RowId row) const {
     MovementCheck check(condition, &movement);
@@ -70,7 +83,7 @@ RC_GTEST_PROP(PlaceOver, TheEndsOfAPointDecideExactly, (std::uint32_t seed)) {
       RC_LOG() << text << ", row " << row << ", value " << value << '\n';
       RC_ASSERT(rows.holds(place_condition(text), row) == expected);
     };
-    for (const double limit : {-60.0, -20.0, 10.0, 50.0}) {
+    for (const double limit : {-20.0, 50.0}) {
       const double azimuth = std::atan2(begin.x(), begin.z()) * kDegrees;
       agrees(fmt::format("from(right_wrist).azimuth < {} deg", limit), azimuth, limit, azimuth < limit);
       const double elevation = std::asin(end.y() / end.norm()) * kDegrees;
@@ -107,7 +120,7 @@ RC_GTEST_PROP(PlaceOver, AStretchedIndexFingerPointsAtWhatLiesAheadOfIt, (std::u
     for (const Vector3d& aside : {Vector3d(0.1, 0.05, -0.1), Vector3d(-0.6, 0.4, 0.3), Vector3d(0.2, -0.2, 0.1)}) {
       const Vector3d locus = joints.front() + finger.normalized() + aside;
       const double turned = angle_of(finger, locus - joints.front());
-      for (const double limit : {5.0, 15.0, 40.0}) {
+      for (const double limit : {15.0, 40.0}) {
         if (std::abs(turned - limit) < 0.02) continue;
         const std::string text = fmt::format("left_hand points at @{:.6f},{:.6f},{:.6f} within {} deg", locus.x(),
                                              locus.y(), locus.z(), limit);
@@ -121,27 +134,28 @@ RC_GTEST_PROP(PlaceOver, AStretchedIndexFingerPointsAtWhatLiesAheadOfIt, (std::u
 
 TEST(PlaceOver, RandomFingersAreBothStretchedAndBent) {
   std::size_t pointing = 0;
-  for (std::uint32_t seed = 0; seed < 10; ++seed) {
+  for (std::uint32_t seed = 0; seed < 15; ++seed) {
     const RandomRows rows(seed);
     for (RowId row = 0; row < rows.spans.size(); ++row) {
       pointing += rows.holds(place_condition("left_hand points at @front within 180 deg"), row) ? 1 : 0;
     }
   }
-  EXPECT_GT(pointing, 20U);
-  EXPECT_LT(pointing, 180U);
+  EXPECT_GT(pointing, 8U);
+  EXPECT_LT(pointing, 52U);
 }
 
 TEST(PlaceOver, ALocusOnTheSignerIsThatOfEachBody) {
-  const MovementTerm term = place_condition("right_hand moves toward @self").movement;
-  const RandomRows rows(1);
-  const Eigen::Vector3f chest = resolve(term.locus, {}, 0, rows.movement.hands(0)->body).at;
+  const Condition by_name = place_condition("right_hand moves toward @self within 60 deg");
   std::size_t found = 0;
-  for (RowId row = 0; row < rows.spans.size(); ++row) {
-    const Condition by_name = place_condition("right_hand moves toward @self within 60 deg");
+  for (std::uint32_t seed = 0; seed < 20; ++seed) {
+    const RandomRows rows(seed);
+    const Eigen::Vector3f chest = resolve(by_name.movement.locus, {}, 0, rows.movement.hands(0)->body).at;
     const Condition by_numbers = place_condition(
         fmt::format("right_hand moves toward @{},{},{} within 60 deg", chest.x(), chest.y(), chest.z()));
-    EXPECT_EQ(rows.holds(by_name, row), rows.holds(by_numbers, row));
-    found += rows.holds(by_name, row) ? 1 : 0;
+    for (RowId row = 0; row < rows.spans.size(); ++row) {
+      EXPECT_EQ(rows.holds(by_name, row), rows.holds(by_numbers, row));
+      found += rows.holds(by_name, row) ? 1 : 0;
+    }
   }
   EXPECT_GT(found, 0U);
 }

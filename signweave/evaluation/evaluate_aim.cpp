@@ -19,6 +19,7 @@ using Eigen::Vector3f;
 
 /// Loci nearer than this are one: a token there is what the ladder would take. (design)
 constexpr float kSameLocus = 10;
+constexpr std::size_t kTokenFolds = 10;
 
 float degrees_between(const std::optional<Locus>& a, const std::optional<Locus>& b) {
   if (!a && !b) return 0;
@@ -101,13 +102,35 @@ class GlossEvaluation {
     gloss_points_ = 2 * std::ranges::count_if(actors_, [](const Actor& one) { return points_at_locus(one); }) >
                     static_cast<std::ptrdiff_t>(actors_.size());
     gloss_.role = role_of_strokes(placed);
-    if (gloss_.role != SpaceRole::none) leave_loci_out();
+    if (gloss_.role != SpaceRole::none) {
+      leave_tokens_out();
+      leave_loci_out();
+    }
     predict_from_elsewhere();
     compare_repetitions();
   }
 
  private:
   using Chosen = std::vector<std::size_t>;  ///< indices of actors
+
+  void leave_tokens_out() {
+    for (std::size_t fold = 0; fold < std::min(kTokenFolds, actors_.size()); ++fold) {
+      Chosen others;
+      std::vector<StrokeToken> tokens;
+      for (std::size_t i = 0; i < actors_.size(); ++i) {
+        if (i % kTokenFolds == fold || !has_loci(actors_[i].seen.loci)) continue;
+        others.push_back(i);
+        tokens.push_back(actors_[i].seen);
+      }
+      const auto learned = LearnedStroke::learn(tokens, gloss_.role, actors_.front().stage->changer.body());
+      if (!learned.stroke) return;
+      for (std::size_t i = fold; i < actors_.size(); i += kTokenFolds) {
+        if (!has_loci(actors_[i].seen.loci)) continue;
+        const Prediction prediction = learned.stroke->predict(actors_[i].seen.loci);
+        take(AimMethod::seen, prediction, others, i, prediction.inside);
+      }
+    }
+  }
 
   void leave_loci_out() {
     std::vector<Locus> loci;
@@ -235,8 +258,8 @@ class GlossEvaluation {
       from.stage->changer.apply(fitted.change, paths, from.stroke.space, 1, time, pose);
     };
     const PhasePoints made = phase_points(from.stage->changer, from.stage->source, from.stroke, change);
-    const bool points =
-        gloss_.role == SpaceRole::aim && gloss_points_ && from.stage->changer.has_index(goal.stroke.dominant);
+    const bool points = method != AimMethod::ends && gloss_.role == SpaceRole::aim && gloss_points_ &&
+                        from.stage->changer.has_index(goal.stroke.dominant);
     const LociOfSign& loci = goal.seen.loci;
     const std::optional<Locus> pointed_at = !points ? std::nullopt : loci.at ? loci.at : loci.to;
     HandInSpace last;
@@ -345,6 +368,8 @@ Vector3f palm_for(const Locus& locus) {
 
 std::string_view name_of(AimMethod method) noexcept {
   switch (method) {
+    case AimMethod::seen:
+      return "seen";
     case AimMethod::learned:
       return "learned";
     case AimMethod::cubic:

@@ -15,6 +15,7 @@ namespace signweave {
 
 /// What a token is predicted by, or compared with.
 enum class AimMethod : std::uint8_t {
+  seen,      ///< LearnedStroke, without a tenth of the tokens: usually others at the locus are known
   learned,   ///< LearnedStroke, without the locus
   cubic,     ///< its polynomial alone, without the locus
   nearest,   ///< aim_stroke from the nearest token at another locus
@@ -22,7 +23,7 @@ enum class AimMethod : std::uint8_t {
   ends,      ///< aim_between from a token whose ends are elsewhere: the wanted ends are given
   floor,     ///< no prediction: another token with nearly the same ends
 };
-inline constexpr std::size_t kAimMethods = 6;
+inline constexpr std::size_t kAimMethods = 7;
 std::string_view name_of(AimMethod method) noexcept;
 
 struct AimToken {

@@ -31,6 +31,8 @@ using Eigen::VectorXd;
 /// One radian of turn or swivel counts as this many shoulder widths: about the palm's distance from the wrist. (ours)
 constexpr double kTurnWeight = 0.3;
 constexpr std::size_t kPointSize = 7;  ///< palm, turn, swivel
+/// From nothing to beyond all reach is as far as this many degrees. (ours)
+constexpr float kAwayDegrees = 100;
 /// Loci within this angle are one. (design)
 constexpr float kSameLocus = 10;
 /// Orientations farther from their mean have no continuous rotation vector. Degrees. (ours)
@@ -47,6 +49,7 @@ struct Arguments {
   bool from = false, to = false, at = false;
   bool by_side = false;                  ///< of two: the one farther to the right comes first
   bool elevation = false;                ///< of one: its elevation is an argument of the mean too
+  bool places = true;                    ///< the mean is linear in the places besides
   float reach = 1.5f;                    ///< arm length, shoulder widths
   Vector3f shoulder = Vector3f::Zero();  ///< of the hand that acts, shoulder widths; of both: between them
 
@@ -70,7 +73,7 @@ struct Arguments {
     for (const Locus& locus : loci) {
       const Vector3d place = place_of(locus);
       input.places.push_back(place);
-      basis.insert(basis.end(), {place.x(), place.y(), place.z()});
+      if (places) basis.insert(basis.end(), {place.x(), place.y(), place.z()});
       const SpaceAngles angles = angles_of(locus.at);
       arcs.push_back(locus.self ? 0.0 : static_cast<double>(angles.azimuth) / 90);
       if (elevation) arcs.push_back(static_cast<double>(angles.elevation) / 90);
@@ -85,6 +88,12 @@ struct Arguments {
     }
     input.basis = Eigen::Map<const VectorXd>(basis.data(), static_cast<Index>(basis.size()));
     return input;
+  }
+  /// How far a locus is from another one, as degrees: in direction, or in distance as far as that matters.
+  float away(const Locus& a, const Locus& b) const {
+    if (a.self || b.self) return degrees_between(a, b);
+    const float farther = std::tanh(a.at.norm() / reach) - std::tanh(b.at.norm() / reach);
+    return std::max(degrees_between(a, b), std::abs(farther) * kAwayDegrees);
   }
   /// How far one radian of arc at the usual distance is between places.
   double arc() const { return static_cast<double>(std::tanh(kLocusDistance / reach)); }
@@ -285,6 +294,7 @@ std::size_t LearnedStroke::loci() const noexcept {
 LearnedStroke::Learned LearnedStroke::learn(std::span<const StrokeToken> tokens, SpaceRole role, const SignerBody& body,
                                             Model model) {
   Arguments arguments = arguments_of(tokens, role, body);
+  arguments.places = model == Model::process;
   std::vector<const StrokeToken*> used;
   std::vector<std::size_t> indices;
   std::vector<std::vector<Locus>> seen;
@@ -387,7 +397,7 @@ Prediction LearnedStroke::predict(const LociOfSign& loci) const {
   float away = 0;
   for (std::size_t i = 0; i < wanted.size(); ++i) {
     float least = 180;
-    for (const std::vector<Locus>& seen : parts.seen) least = std::min(least, degrees_between(seen[i], wanted[i]));
+    for (const std::vector<Locus>& seen : parts.seen) least = std::min(least, parts.arguments.away(seen[i], wanted[i]));
     away = std::max(away, least);
   }
   for (std::size_t t = 0; t < parts.seen.size(); ++t) {
@@ -399,7 +409,7 @@ Prediction LearnedStroke::predict(const LociOfSign& loci) const {
     prediction.nearest = parts.token[t];
   }
   if (away > kNearLoci) {
-    prediction.why_outside = fmt::format("{:.0f}° from the loci seen", away);
+    prediction.why_outside = fmt::format("no token's locus is nearer than {:.0f}°", away);
   } else if (own.mm > 2 * std::max(noise.mm, kLeastNoise) ||
              own.degrees > 2 * std::max(noise.degrees, kLeastTurnNoise)) {
     prediction.why_outside = fmt::format(

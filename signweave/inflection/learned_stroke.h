@@ -24,20 +24,21 @@ struct Prediction {
   float error_mm = 0, error_degrees = 0;
   float noise_mm = 0, noise_degrees = 0;  ///< the part of it by which repetitions differ from their mean
   bool inside = true;                     ///< near the loci that it was learned from; see LearnedStroke::predict
-  std::string why_outside;                ///< "62° from the loci seen"; empty if inside
+  std::string why_outside;                ///< "no token's locus is nearer than 62°"; empty if inside
   std::size_t nearest = 0;                ///< the token whose loci are nearest
 };
 
 /// A model of how one gloss' strokes depend on their loci, learned from its tokens: Gaussian process regression whose
 /// mean is the third-order polynomial of the arc positions of subject and object of Lu & Huenerfauth (2010, 2011), 10
-/// coefficients for two arguments and 4 for one. Outputs are palms, rotations from the mean orientation and elbow
-/// swivels of the hands that act, at kPhasePoints moments, as at most kMostComponents principal components. Learning
-/// takes some ten milliseconds, a prediction some ten microseconds; both allocate. Immutable.
+/// coefficients for two arguments and 4 for one; it is also linear in where the line from the shoulder to a locus
+/// leaves the hand's reach, and the signer as a locus has a coefficient. Outputs are palms, rotations from the mean
+/// orientation and elbow swivels of the hands that act, at kPhasePoints moments, as at most kMostComponents principal
+/// components. Learning takes some ten milliseconds, a prediction some ten microseconds; both allocate. Immutable.
 class LearnedStroke {
  public:
   enum class Model {
     process,     ///< as above
-    cubic_alone  ///< the polynomial with ridge
+    cubic_alone  ///< the polynomial alone, with ridge
   };
   struct Learned;
   /// Needs kLeastTokens with loci at kLeastLoci loci. Tokens without the loci of the role are not used. The same tokens

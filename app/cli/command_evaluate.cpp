@@ -8,6 +8,7 @@
 #include "app/cli/command.h"
 #include "app/cli/progress.h"
 #include "app/wire/text.h"
+#include "signweave/calls/aim_report.h"
 #include "signweave/calls/collection_report.h"
 #include "signweave/calls/evaluate_call.h"
 #include "signweave/calls/table.h"
@@ -59,6 +60,20 @@ void draw(const std::string& path, const std::vector<EvaluatedTask>& tasks, Boot
   file.commit();
 }
 
+void show_aim(const calls::Evaluated& made, const EvaluateArguments& options, Io& io) {
+  if (io.json) {
+    Bootstrap bootstrap(options.call.seed);
+    io.out << text_of(answer_json(answer_of(made, options.call, bootstrap)));
+    return;
+  }
+  io.out << fmt::format("{}, {} left out; {} of {}, {} left out\n", counted(made.input.recordings.size(), "recording"),
+                        made.input.left_out.size(), counted(made.aim->tokens.size(), "token"),
+                        fmt::format("{} gloss{}", made.aim->glosses.size(), made.aim->glosses.size() == 1 ? "" : "es"),
+                        made.aim->left_out);
+  io.out << "nothing is learned from the locus that is judged, except in 'seen'; signer and session are the same\n";
+  io.out << calls::aim_text(calls::aim_answer(*made.aim));
+}
+
 void run_evaluate(const EvaluateArguments& options, Io& io) {
   std::unique_ptr<Progress> progress;
   calls::Listener listener = listener_of(io);
@@ -67,6 +82,12 @@ void run_evaluate(const EvaluateArguments& options, Io& io) {
   calls::EvaluationInput input = calls::read_evaluation_input(options.paths, options.reading, listener);
   progress.reset();
   calls::require_recordings(input, fmt::format("{}", fmt::join(options.paths, ", ")));
+  if (options.call.task == "aim") {
+    const calls::Evaluated made = calls::evaluate_aimed(std::move(input), listener);
+    progress.reset();
+    show_aim(made, options, io);
+    return;
+  }
   if (!options.call.collections.empty()) {
     TextReader table{std::filesystem::path(options.call.collections)};
     read_collections(table, input.recordings, input.left_out);

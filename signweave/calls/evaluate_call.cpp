@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <set>
 
+#include "signweave/calls/aim_report.h"
 #include "signweave/calls/collection_report.h"
 #include "signweave/core/text.h"
 #include "signweave/evaluation/collection_table.h"
@@ -133,9 +134,17 @@ Evaluated evaluate(EvaluationInput input, SpanChoice choice, const EvaluateCall&
   return made;
 }
 
+Evaluated evaluate_aimed(EvaluationInput input, const Listener& listener) {
+  Evaluated made{.input = std::move(input), .choice = {}, .tasks = {}, .left_out_by = "locus"};
+  listener.begin("aim");
+  made.aim = evaluate_aim(made.input.recordings, [&](double fraction) { listener.advance(fraction); });
+  return made;
+}
+
 Evaluated run(const Database& database, const EvaluateCall& call, const Listener& listener) {
   EvaluationInput input = read_evaluation_input(database, listener);
   require_recordings(input, "the database");
+  if (call.task == "aim") return evaluate_aimed(std::move(input), listener);
   if (!call.collections.empty()) {
     TextReader table("collections", call.collections);
     read_collections(table, input.recordings, input.left_out);
@@ -161,6 +170,10 @@ EvaluationAnswer answer_of(const Evaluated& evaluated, const EvaluateCall& call,
                           .confidence = kConfidence,
                           .tasks = {},
                           .spans = span_answers(evaluated.input, evaluated.choice)};
+  if (evaluated.aim) {
+    answer.aim = aim_answer(*evaluated.aim);
+    return answer;
+  }
   // In this order: the bootstrap draws from one sequence of random numbers.
   for (const EvaluatedTask& task : evaluated.tasks) answer.tasks.push_back(answer_of(task, bootstrap));
   answer.judged = judged_answers(evaluated.tasks.front(), bootstrap);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -8,12 +9,14 @@
 #include "signweave/calls/evaluation_report.h"
 #include "signweave/calls/field.h"
 #include "signweave/calls/listener.h"
+#include "signweave/evaluation/evaluate_aim.h"
 #include "signweave/transition/method.h"
 
 namespace signweave::calls {
 
-/// Cuts out captured movements, regenerates them by each method, and compares.
+/// Cuts out captured movements, regenerates them by each method, and compares; or predicts strokes at loci from others.
 struct EvaluateCall {
+  std::string task = "transitions";
   std::vector<std::string> methods;  ///< empty: all; slerp, the reference of the ratios, is always included
   std::uint64_t seed = 1;
   std::string collections;  ///< a table (see read_collections) as text; on the command line, the name of its file
@@ -24,6 +27,11 @@ std::string check_method(const std::string& name);
 
 template <class Visit>
 void fields(Visit& visit, EvaluateCall& call) {
+  visit(Field{.name = "task",
+              .help = "transitions between signs, or strokes that are aimed at loci (aim)",
+              .shows_default = true,
+              .one_of = {"transitions", "aim"}},
+        call.task);
   visit(Field{.name = "method",
               .help = "this method alone, in addition to slerp; may be given several times",
               .several_words = true,
@@ -49,13 +57,16 @@ struct Evaluated {
   EvaluationInput input;
   SpanChoice choice;
   std::vector<EvaluatedTask> tasks;
-  std::string_view left_out_by;  ///< see Folds
+  std::string_view left_out_by;           ///< see Folds; "locus" for the task "aim"
+  std::optional<AimEvaluation> aim = {};  ///< of the task "aim", which has no spans and no other tasks
 };
 
 /// Throws Error{not_found} if there is nothing to evaluate on, and what `listener.progress` throws.
 Evaluated run(const Database& database, const EvaluateCall& call, const Listener& listener);
 /// Evaluates on any input and spans.
 Evaluated evaluate(EvaluationInput input, SpanChoice choice, const EvaluateCall& call, const Listener& listener);
+/// The task "aim".
+Evaluated evaluate_aimed(EvaluationInput input, const Listener& listener);
 /// Throws Error{not_found} if there is none.
 void require_recordings(const EvaluationInput& input, const std::string& where);
 

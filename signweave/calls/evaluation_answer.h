@@ -135,6 +135,78 @@ void fields(Visit& visit, const SpanAnswer& span) {
   visit(AnswerField{.name = "speed_peaks"}, span.speed_peaks);
 }
 
+/// Mean errors of the predictions by one method.
+struct AimRowAnswer {
+  std::string_view method;
+  bool near = true;
+  std::size_t predictions = 0;
+  std::size_t unreached = 0;
+  double end_mm = 0;
+  double path_mm = 0;
+  OrNull<double> path_over_floor;
+  OrNull<double> path_over_noise;
+  double aim_degrees = 0;
+  double turn_degrees = 0;
+  double shape_mm = 0;
+  OrNull<double> expected_mm;
+};
+template <class Visit>
+void fields(Visit& visit, const AimRowAnswer& row) {
+  visit.type("AimRow");
+  visit(AnswerField{.name = "method", .one_of = {"seen", "learned", "cubic", "nearest", "citation", "ends", "floor"}},
+        row.method);
+  visit(AnswerField{.name = "near", .help = "the learned model vouches for these loci"}, row.near);
+  visit(AnswerField{.name = "predictions", .help = "how many it is from"}, row.predictions);
+  visit(AnswerField{.name = "unreached", .help = "of these, how many the arms cannot make wholly"}, row.unreached);
+  visit(AnswerField{.name = "end_mm", .help = "between the palms at the stroke's end"}, row.end_mm);
+  visit(AnswerField{.name = "path_mm", .help = "between the palms over the stroke"}, row.path_mm);
+  visit(AnswerField{.name = "path_over_floor", .help = "over that of repetitions; null: there are none"},
+        row.path_over_floor);
+  visit(AnswerField{.name = "path_over_noise", .help = "over how far repetitions are from their mean"},
+        row.path_over_noise);
+  visit(AnswerField{.name = "aim_degrees",
+                    .help = "between the directions of the movements; of a pointing sign, between finger and locus"},
+        row.aim_degrees);
+  visit(AnswerField{.name = "turn_degrees", .help = "between the orientations of the hands"}, row.turn_degrees);
+  visit(AnswerField{.name = "shape_mm", .help = "between the paths after the best shift, turn and scale"},
+        row.shape_mm);
+  visit(AnswerField{.name = "expected_mm", .help = "the path error that the model expects"}, row.expected_mm);
+}
+
+struct AimGlossAnswer {
+  std::string gloss;
+  std::string_view role;
+  std::size_t tokens = 0;
+  std::size_t with_loci = 0;
+  std::optional<std::string> why_not_learned;
+  std::vector<AimRowAnswer> rows;
+};
+template <class Visit>
+void fields(Visit& visit, const AimGlossAnswer& gloss) {
+  visit.type("AimGloss");
+  visit(AnswerField{.name = "gloss"}, gloss.gloss);
+  visit(AnswerField{.name = "role", .help = "as guessed", .one_of = {"none", "forward", "backward", "aim", "both"}},
+        gloss.role);
+  visit(AnswerField{.name = "tokens"}, gloss.tokens);
+  visit(AnswerField{.name = "with_loci"}, gloss.with_loci);
+  visit(AnswerField{.name = "why_not_learned"}, gloss.why_not_learned);
+  visit(AnswerField{.name = "rows"}, gloss.rows);
+}
+
+/// How strokes are predicted at loci that are left out.
+struct AimAnswer {
+  std::vector<AimRowAnswer> all;
+  std::vector<AimGlossAnswer> glosses;
+  std::size_t tokens_left_out = 0;
+};
+template <class Visit>
+void fields(Visit& visit, const AimAnswer& answer) {
+  visit.type("AimEvaluation");
+  visit(AnswerField{.name = "all"}, answer.all);
+  visit(AnswerField{.name = "glosses"}, answer.glosses);
+  visit(AnswerField{.name = "tokens_left_out"}, answer.tokens_left_out);
+}
+
 struct EvaluationAnswer {
   std::size_t recordings = 0;
   std::size_t recordings_left_out = 0;
@@ -145,6 +217,7 @@ struct EvaluationAnswer {
   double confidence = 0;
   std::vector<TaskAnswer> tasks;
   std::vector<SpanAnswer> spans;
+  std::optional<AimAnswer> aim = {};
 };
 template <class Visit>
 void evaluation_fields(Visit& visit, const EvaluationAnswer& answer) {
@@ -152,7 +225,7 @@ void evaluation_fields(Visit& visit, const EvaluationAnswer& answer) {
   visit(AnswerField{.name = "recordings_left_out"}, answer.recordings_left_out);
   visit(AnswerField{.name = "left_out_by",
                     .help = "nothing is learned from the one that is judged",
-                    .one_of = {"collection", "signer", "recording"}},
+                    .one_of = {"collection", "signer", "recording", "locus"}},
         answer.left_out_by);
   visit(AnswerField{.name = "judged", .help = "the other methods against kriging, by the wrist's error"},
         answer.judged);
@@ -161,6 +234,7 @@ void evaluation_fields(Visit& visit, const EvaluationAnswer& answer) {
   visit(AnswerField{.name = "confidence"}, answer.confidence);
   visit(AnswerField{.name = "tasks"}, answer.tasks);
   visit(AnswerField{.name = "spans"}, answer.spans);
+  visit(AnswerField{.name = "aim", .help = "of the task aim, which has no tasks and spans"}, answer.aim);
 }
 template <class Visit>
 void fields(Visit& visit, const EvaluationAnswer& answer) {

@@ -12,6 +12,7 @@
 #include "signweave/core/text.h"
 #include "signweave/database/database.h"
 #include "signweave/database/import.h"
+#include "signweave/evaluation/annotated_loci.h"
 #include "signweave/formats/annotation_file.h"
 #include "signweave/semantic_db/semantic_db.h"
 
@@ -55,13 +56,14 @@ motion_file::File read_motion(const fs::path& path, const MotionReading& words, 
 struct Annotated {
   std::vector<Sign> signs;
   FrameClock clock;
+  std::optional<AnnotationDocument> document = {};
 };
 Annotated annotation_of(const ImportJob& job, FrameRate rate) {
   Annotated found{.signs = {}, .clock = {rate.frame_time(), Seconds(0)}};
   if (!job.annotation) return found;
   // Unsound annotations are refused: signs left out would silently be missing from the evaluation.
-  const AnnotationDocument document =
-      annotation_file::read(*job.annotation, annotation_file::Unsound::refused).document;
+  found.document = annotation_file::read(*job.annotation, annotation_file::Unsound::refused).document;
+  const AnnotationDocument& document = *found.document;
   found.signs = signs_in(document, guess_tier_names(document)).signs;
   for (const LinkedFile& linked : document.linked_files) {
     for (const std::string& url : {linked.url, linked.relative_url}) {
@@ -69,6 +71,17 @@ Annotated annotation_of(const ImportJob& job, FrameRate rate) {
     }
   }
   return found;
+}
+
+/// Reads the loci of the signs.
+void add_loci(const AnnotationDocument& document, EvaluatedMotion& recording, const Listener& listener) {
+  if (!recording.signer.body) return;
+  AnnotatedLoci found = annotated_loci(document, recording.signs, *recording.signer.body);
+  for (Notice& notice : found.notices) {
+    notice.where = fmt::format("{}, tier {}", recording.name, notice.where);
+    listener.notify(notice);
+  }
+  recording.loci = std::move(found.of);
 }
 
 /// Adds one recording; if it fails, reports it, so that the others continue.
@@ -147,6 +160,7 @@ void add_database(const Database& database, const std::string& name, EvaluationI
                                signs_of(contents->segments, static_cast<std::uint32_t>(i)), info.clock);
           one.collection = name;
           one.performer = info.signer;
+          if (info.document != 0) add_loci(database.document(info.name), one, listener);
           return one;
         },
         input, listener);
@@ -172,6 +186,7 @@ void add_files(const std::vector<fs::path>& paths, const MotionReading& reading,
           EvaluatedMotion one = evaluated_motion(job.motion->string(), std::move(file.motion), rig,
                                                  std::move(annotated.signs), annotated.clock);
           one.collection = collection_of(*job.motion, paths);
+          if (annotated.document) add_loci(*annotated.document, one, listener);
           return one;
         },
         input, listener);

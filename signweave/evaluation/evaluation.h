@@ -14,6 +14,7 @@
 #include "signweave/evaluation/hand_tracks.h"
 #include "signweave/features/capture_noise.h"
 #include "signweave/features/hand_motion.h"
+#include "signweave/inflection/aim.h"
 #include "signweave/motion/motion.h"
 #include "signweave/transition/joint_groups.h"
 
@@ -29,6 +30,7 @@ struct EvaluatedMotion {
   SignerModel signer;
   JointGroups groups;
   std::vector<Sign> signs;  ///< empty: not annotated
+  std::vector<LociOfSign> loci = {};  ///< [sign]; empty: not annotated
   FrameClock clock;
   HandTracks tracks;           ///< over the whole motion
   std::vector<bool> unusable;  ///< [frame] T-pose, jump or non-finite: must not be in a span or its context

@@ -4,11 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "signweave/core/error.h"
 #include "signweave/inflection/reach.h"
 #include "signweave/inflection/slots.h"
+#include "signweave/inflection/turns.h"
 #include "signweave/motion/turn_between.h"
 
 namespace signweave {
@@ -16,6 +16,7 @@ namespace {
 
 using inflection::kDegree;
 using inflection::slot;
+using inflection::wrapped;
 
 using Eigen::Matrix3f;
 using Eigen::Quaternionf;
@@ -29,10 +30,9 @@ constexpr float kNoMovement = 0.05f;
 constexpr float kBeforeChest = 0.35f;
 /// A stroke's end counts as outward if it is this much farther from the body than its begin. Metres. (ours)
 constexpr float kOutward = 0.08f;
+/// An index finger that is farther from the direction to the locus does not point at it. Degrees. (ours)
+constexpr float kPointsBeside = 35;
 
-float wrapped(float radians) {
-  return std::remainder(radians, 2 * std::numbers::pi_v<float>);
-}
 Quaternionf yaw_of(float radians) {
   return Quaternionf(Eigen::AngleAxisf(radians, Vector3f::UnitY()));
 }
@@ -61,6 +61,7 @@ struct StrokeEnd {
   Vector3f palm = Vector3f::Zero();  ///< metres
   std::optional<Locus> locus;        ///< captured; none: unknown
   bool touches = false;
+  bool known = false;  ///< the locus is annotated, not guessed from the palm
 };
 
 /// Places of palms for loci. All in metres, the stroke's axes.
@@ -69,6 +70,8 @@ class Places {
   Places(const SignerBody& body, const PalmReach& reach, StrokeEnd begin, StrokeEnd end)
       : unit_(body.shoulder_width), reach_(reach), begin_(begin), end_(end) {
     const float outward = level(end_.palm) - level(begin_.palm);
+    begin_.known = begin_.locus.has_value();
+    end_.known = end_.locus.has_value();
     guess(begin_, outward);
     guess(end_, -outward);
   }
@@ -86,6 +89,7 @@ class Places {
     }
     // The end that was away from the signer shows how far and how high.
     const StrokeEnd& base = own.locus->self && !other.locus->self ? other : own;
+    if (base.known && !base.locus->self) return reach_.within(moved(base, wanted->at));
     const float before = base.locus->self ? azimuth(base.palm) : azimuth(base.locus->at);
     const float turn = wrapped(azimuth(wanted->at) - before);
     Vector3f palm = yaw_of(turn) * base.palm;
@@ -100,6 +104,19 @@ class Places {
   }
 
  private:
+  /// The palm keeps its place relative to the line from the shoulder to the locus, along which it goes as far as the
+  /// arm's reach allows.
+  Vector3f moved(const StrokeEnd& base, const Vector3f& wanted) const {
+    const Vector3f before = unit_ * base.locus->at - reach_.shoulder;
+    const Vector3f after = unit_ * wanted - reach_.shoulder;
+    const float farther = std::tanh(after.norm() / reach_.most) / std::tanh(before.norm() / reach_.most);
+    Vector3f palm = yaw_of(wrapped(azimuth(after) - azimuth(before))) * (base.palm - reach_.shoulder);
+    const float rise = std::clamp(elevation(after) - elevation(before), -kMostPitch * kDegree, kMostPitch * kDegree);
+    palm.x() *= farther;
+    palm.z() *= farther;
+    palm.y() += level(palm) * std::tan(rise);
+    return reach_.shoulder + palm;
+  }
   static float elevation(const Vector3f& point) { return std::atan2(point.y(), level(point)); }
   /// `outward`: how much farther from the signer the other end is.
   void guess(StrokeEnd& end, float outward) const {
@@ -154,9 +171,10 @@ Quaternionf about(const Vector3f& shoulder, const Vector3f& from, const Vector3f
 ArmChange arm_change(const Vector3f& a, const Vector3f& b, const Vector3f& a2, const Vector3f& b2, float usual_yaw,
                      float relief, const Vector3f& shoulder) {
   const Similarity map = similarity(a, b, a2, b2, usual_yaw);
-  ArmChange change{
-      .linear = map.linear, .from = a, .to = a2, .turn = Quaternionf::Identity().slerp(1 - relief, map.turn)};
+  ArmChange change{.linear = map.linear, .from = a, .to = a2};
   change.carry = about(shoulder, (a + b) / 2, (a2 + b2) / 2);
+  // A hand that turns with the arm bends its wrist as captured.
+  change.turn = change.carry.slerp(1 - relief, map.turn);
   if (map.left_over.norm() > 1e-6f) change.path = {{}, {.shift = map.left_over}};
   return change;
 }
@@ -186,21 +204,14 @@ Vector3f changed_palm(StrokeChanger& changer, const CapturedStroke& stroke, cons
   return stroke.palm(made, side);
 }
 
-Aimed aim_movement(StrokeChanger& changer, const CapturedStroke& stroke, const std::optional<Locus>& begin,
-                   const std::optional<Locus>& end, const std::optional<Locus>& begin_before,
-                   const std::optional<Locus>& end_before) {
+/// Takes the ends of a movement to `a2` and `b2`.
+Aimed move_ends(StrokeChanger& changer, const CapturedStroke& stroke, const Vector3f& a2, const Vector3f& b2,
+                float usual_yaw) {
   const Side side = stroke.dominant;
   const CapturedStroke::Sample& first = stroke.samples.front();
   const CapturedStroke::Sample& last = stroke.samples.back();
   const Vector3f a = stroke.palm(first, side);
   const Vector3f b = stroke.palm(last, side);
-  const Places places(changer.body(), reach_of(changer, stroke, side), {a, begin_before, touches_body(first, side)},
-                      {b, end_before, touches_body(last, side)});
-  const Vector3f a2 = places.place(false, begin);
-  const Vector3f b2 = places.place(true, end);
-  const float begin_turn = places.turn_of(false, begin);
-  const float end_turn = places.turn_of(true, end);
-  const float usual_yaw = std::abs(end_turn) > std::abs(begin_turn) ? end_turn : begin_turn;
   const auto make = [&](float share, float relief, const Vector3f& pushed) {
     return change_of(stroke, side,
                      arm_change(a, b, on_arc(a, a2, share) + pushed, on_arc(b, b2, share) + pushed, share * usual_yaw,
@@ -211,6 +222,22 @@ Aimed aim_movement(StrokeChanger& changer, const CapturedStroke& stroke, const s
   aimed.begin_missed = (changed_palm(changer, stroke, aimed.fitted.change, first, side) - a2).norm();
   aimed.end_missed = (changed_palm(changer, stroke, aimed.fitted.change, last, side) - b2).norm();
   return aimed;
+}
+
+Aimed aim_movement(StrokeChanger& changer, const CapturedStroke& stroke, const std::optional<Locus>& begin,
+                   const std::optional<Locus>& end, const std::optional<Locus>& begin_before,
+                   const std::optional<Locus>& end_before) {
+  const Side side = stroke.dominant;
+  const CapturedStroke::Sample& first = stroke.samples.front();
+  const CapturedStroke::Sample& last = stroke.samples.back();
+  const Vector3f a = stroke.palm(first, side);
+  const Vector3f b = stroke.palm(last, side);
+  const Places places(changer.body(), reach_of(changer, stroke, side), {a, begin_before, touches_body(first, side)},
+                      {b, end_before, touches_body(last, side)});
+  const float begin_turn = places.turn_of(false, begin);
+  const float end_turn = places.turn_of(true, end);
+  return move_ends(changer, stroke, places.place(false, begin), places.place(true, end),
+                   std::abs(end_turn) > std::abs(begin_turn) ? end_turn : begin_turn);
 }
 
 /// Each hand comes from its own locus, or goes to it.
@@ -243,7 +270,23 @@ Vector3f pointing_of(const HandInSpace& hand) {
   return (hand.index_tip - hand.index_base).normalized();
 }
 
-Aimed point(StrokeChanger& changer, const CapturedStroke& stroke, const Locus& target) {
+/// Where a locus is pointed at, metres. A hand would stand on a locus that is near; it points at one farther out in the
+/// same direction.
+Vector3f pointed_place(const Locus& locus, float unit) {
+  return unit * std::max(locus.self ? 1.0f : kNearestPointedAt / std::max(locus.at.norm(), 1e-3f), 1.0f) * locus.at;
+}
+
+/// True unless the index finger of an annotated stroke goes elsewhere than to its locus: such a hand is placed, and
+/// turned, before the locus.
+bool points(const CapturedStroke& stroke, const std::optional<Locus>& captured, float unit) {
+  if (!captured || captured->self) return true;
+  const HandInSpace& hand = stroke.last(stroke.dominant);
+  const Vector3f line = pointed_place(*captured, unit) - hand.index_base;
+  return pointing_of(hand).dot(line.normalized()) > std::cos(kPointsBeside * kDegree);
+}
+
+Aimed point(StrokeChanger& changer, const CapturedStroke& stroke, const Locus& target,
+            const std::optional<Locus>& captured) {
   const Side side = stroke.dominant;
   if (!changer.has_index(side)) {
     throw Error(ErrorCode::bad_input,
@@ -251,14 +294,18 @@ Aimed point(StrokeChanger& changer, const CapturedStroke& stroke, const Locus& t
   }
   const CapturedStroke::Sample& last = stroke.samples.back();
   const HandInSpace& hand = last.hands[slot(side)];
-  // A hand would stand on a locus that is near; it points at one farther out in the same direction.
-  const float away = std::max(target.self ? 1.0f : kNearestPointedAt / std::max(target.at.norm(), 1e-3f), 1.0f);
-  const Vector3f goal = changer.body().shoulder_width * away * target.at;
+  const float unit = changer.body().shoulder_width;
+  const Vector3f goal = pointed_place(target, unit);
   // The arm turns about the shoulder as far as the direction from there to the target turns.
   const Vector3f before = pointing_of(hand);
+  const Vector3f pointed_at = captured && !captured->self
+                                  ? pointed_place(*captured, unit)
+                                  : Vector3f(hand.index_base + unit * kNearestPointedAt * before);
+  const Vector3f arm_before = (pointed_at - hand.shoulder).normalized();
   const auto make = [&](float share, float relief, const Vector3f& pushed) {
-    const Vector3f direction = on_arc(before, (goal - hand.shoulder).normalized(), (1 - relief) * share).normalized();
-    const Quaternionf carry = about(Vector3f::Zero(), before, direction);
+    const Vector3f direction =
+        on_arc(arm_before, (goal - hand.shoulder).normalized(), (1 - relief) * share).normalized();
+    const Quaternionf carry = about(Vector3f::Zero(), arm_before, direction);
     ArmChange arm{.linear = carry.toRotationMatrix(),
                   .from = hand.palm,
                   .to = hand.shoulder + carry * (hand.palm - hand.shoulder) + pushed,
@@ -295,7 +342,12 @@ Aimed aim_stroke(StrokeChanger& changer, const CapturedStroke& stroke, SpaceRole
                  const LociOfSign& captured) {
   for (const auto& locus : {wanted.from, wanted.to, wanted.at}) require_in_front(locus);
   if (role == SpaceRole::aim && (wanted.at || wanted.to)) {
-    return point(changer, stroke, wanted.at ? *wanted.at : *wanted.to);
+    const std::optional<Locus>& target = wanted.at ? wanted.at : wanted.to;
+    const std::optional<Locus>& before = captured.at ? captured.at : captured.to;
+    if (!changer.has_index(stroke.dominant) || points(stroke, before, changer.body().shoulder_width)) {
+      return point(changer, stroke, *target, before);
+    }
+    return aim_movement(changer, stroke, target, target, before, before);
   }
   if (wanted.at) return aim_movement(changer, stroke, wanted.at, wanted.at, captured.at, captured.at);
   switch (role) {
@@ -311,6 +363,12 @@ Aimed aim_stroke(StrokeChanger& changer, const CapturedStroke& stroke, SpaceRole
   }
   throw Error(ErrorCode::bad_input,
               "a sign without a role goes nowhere by itself; give its role in a table (GLOSS,forward)");
+}
+
+Aimed aim_between(StrokeChanger& changer, const CapturedStroke& stroke, const Vector3f& begin, const Vector3f& end) {
+  const Vector3f a = stroke.palm(stroke.samples.front(), stroke.dominant);
+  const Vector3f b = stroke.palm(stroke.samples.back(), stroke.dominant);
+  return move_ends(changer, stroke, begin, end, wrapped(azimuth(begin + end) - azimuth(a + b)));
 }
 
 SpaceRole guessed_role(const CapturedStroke& stroke, const StrokeChanger& changer) {

@@ -39,6 +39,11 @@ Aimed aim_stroke(StrokeChanger& changer, const CapturedStroke& stroke, SpaceRole
 /// Throws Error{bad_input} for a locus behind the signer.
 void require_in_front(const std::optional<Locus>& locus);
 
+/// The same movement begins and ends with the palm, or the middle between both that keep to each other, at given
+/// places: metres, the axes of the stroke's space.
+Aimed aim_between(StrokeChanger& changer, const CapturedStroke& stroke, const Eigen::Vector3f& begin,
+                  const Eigen::Vector3f& end);
+
 /// A locus at a larger azimuth than this is behind the signer. Degrees. (ours)
 inline constexpr float kMostAzimuth = 110;
 /// A hand points at nearer loci as if they were this far away in the same direction from between the shoulders.

@@ -21,9 +21,9 @@ struct FittedChange {
 };
 
 /// The change for a share, from 0 (as captured) to 1 (all), of what is asked for, and for a relief of the arm, from 0
-/// (none) to 1: for a movement, how much less the hands turn; for a pointing hand, how much less it leaves its place.
-/// The palms are shifted by `pushed`, metres, besides. It must depend continuously on all, and share 0 must be
-/// feasible.
+/// (none) to 1: for a movement, how much the hands turn with the arm instead of with the movement; for a pointing hand,
+/// how much less it leaves its place. The palms are shifted by `pushed`, metres, besides. It must depend continuously
+/// on all, and share 0 must be feasible.
 using MakeChange = std::function<StrokeChange(float share, float relief, const Eigen::Vector3f& pushed)>;
 
 /// Finds the change nearest to what is asked for. The trunk turns towards the target by up to kTrunkShare where that

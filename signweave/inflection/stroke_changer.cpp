@@ -6,10 +6,12 @@
 #include <cmath>
 
 #include "signweave/inflection/slots.h"
+#include "signweave/inflection/turns.h"
 
 namespace signweave {
 namespace {
 
+using inflection::of_vector;
 using inflection::slot;
 
 using Eigen::Quaternionf;
@@ -22,11 +24,6 @@ constexpr int kSolves = 4;
 Quaternionf share_of(const Quaternionf& turn, float weight) {
   if (weight >= 1) return turn;
   return Quaternionf::Identity().slerp(weight, turn);
-}
-
-Quaternionf of_vector(const Vector3f& turn) {
-  const float angle = turn.norm();
-  return angle < 1e-9f ? Quaternionf::Identity() : Quaternionf(Eigen::AngleAxisf(angle, turn / angle));
 }
 
 }  // namespace
@@ -90,7 +87,9 @@ HandInSpace StrokeChanger::look(PoseView pose, const StrokeSpace& space, Side si
   own.places.read(model_, own.points);
   HandInSpace hand{.palm = space.to_signer(palm_of(own.points)),
                    .turn = space.model_from_signer.conjugate() * model_.rotations[slot(own.joints.wrist)],
-                   .shoulder = space.to_signer(model_.positions[slot(own.joints.shoulder)])};
+                   .shoulder = space.to_signer(model_.positions[slot(own.joints.shoulder)]),
+                   .elbow = space.to_signer(model_.positions[slot(own.joints.elbow)]),
+                   .wrist = space.to_signer(model_.positions[slot(own.joints.wrist)])};
   if (own.has_index) {
     const RigMap& rig = rig_->signer.rig;
     hand.index_base =

@@ -33,6 +33,8 @@ struct HandInSpace {
   Eigen::Vector3f index_base = Eigen::Vector3f::Zero();      ///< the index finger's knuckle; zero if the rig has none
   Eigen::Vector3f index_tip = Eigen::Vector3f::Zero();
   Eigen::Vector3f shoulder = Eigen::Vector3f::Zero();
+  Eigen::Vector3f elbow = Eigen::Vector3f::Zero();
+  Eigen::Vector3f wrist = Eigen::Vector3f::Zero();
 };
 
 /// Puts changed strokes on a signer, pose by pose. Created once per signer; used by one thread; allocates nothing once

@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "demo/space.h"
 #include "signweave/choose/synthesizer.h"
 #include "signweave/core/error.h"
 #include "signweave/database/test_recording.h"
@@ -147,6 +148,46 @@ TEST(SpaceTest, ReportsAndAnnotationSayWhatWasChanged) {
   const AnnotationDocument document = annotation_of(made.result);
   for (const Annotation& one : document.find_tier("Source")->annotations) sources += one.label + "\n";
   EXPECT_THAT(sources, HasSubstr("move -6/0/0 (asked: 60 mm, 0°)"));
+}
+
+/// The recordings whose signs are aimed by a known law.
+const Database& aimed() {
+  static const testing_database::TestFolder folder;
+  static const std::unique_ptr<const Database> database = [] {
+    Database::create(folder / "db", {});
+    Database writer(folder / "db", kv::Access::read_write);
+    for (const demo::SpaceScript& script : {demo::espace_index(), demo::espace_verbes(1), demo::espace_verbes(2)}) {
+      demo::SyntheticRecording made = demo::make_space(script, {100, 1}, 1);
+      Recording recording{.name = made.name};
+      recording.motion = MotionPart{.motion = std::move(made.motion)};
+      TierNames tiers = guess_tier_names(made.document);
+      recording.annotation = AnnotationPart{.document = std::move(made.document), .tiers = std::move(tiers)};
+      recording.clock = {.frame_time = made.timeline.rate.frame_time()};
+      writer.put(recording);
+    }
+    return std::make_unique<const Database>(folder / "db", kv::Access::read_only);
+  }();
+  return *database;
+}
+
+TEST(SpaceTest, TheBestBasisOfAVerbIsTaken) {
+  SynthesisOptions options;
+  options.space.roles = {{"INVITER", SpaceRole::backward}, {"INDEX", SpaceRole::aim}, {"DONNER", SpaceRole::forward}};
+  const auto change = [&](std::string_view text) {
+    return synthesize(aimed(), parse_utterance(text), options).result.score.clips.front().changes.front();
+  };
+  const ClipChange captured = change("INVITER{from @self to @25}");
+  EXPECT_EQ(captured.basis, ChangeBasis::captured);
+  EXPECT_EQ(captured.moved_mm, 0);
+  const ClipChange learned = change("INVITER{from @self to @12}");
+  EXPECT_EQ(learned.basis, ChangeBasis::learned) << learned.because;
+  EXPECT_THAT(learned.because, HasSubstr("learned from"));
+  const ClipChange geometric = change("INVITER{from @self to @105}");
+  EXPECT_EQ(geometric.basis, ChangeBasis::geometric);
+  EXPECT_THAT(geometric.because, HasSubstr("geometric from 'INVITER'"));
+  const ClipChange index = change("INDEX{at @33/5/3}");
+  EXPECT_EQ(index.basis, ChangeBasis::geometric);
+  EXPECT_LT(index.aim_degrees, 1);
 }
 
 TEST(SpaceTest, FaultsAreOneLineWithTheirMend) {

@@ -36,17 +36,6 @@ float apart(const Locus& a, const Locus& b) {
   return std::acos(std::clamp(cosine, -1.0f, 1.0f)) * 180 / std::numbers::pi_v<float>;
 }
 
-/// The loci of a token, as annotated over its sign.
-LociOfSign captured_loci(const Snapshot& snapshot, std::size_t recording, TimeSpan sign, const SignerBody& body) {
-  const auto found = loci_over(*snapshot.loci(recording), sign);
-  const auto resolved = [&](LocusTier tier) -> std::optional<Locus> {
-    const std::optional<LocusRef>& ref = found[static_cast<std::size_t>(tier)];
-    if (!ref || (ref->kind == LocusRef::Kind::name && !is_built_in_locus(ref->name))) return std::nullopt;
-    return resolve(*ref, {}, 0, body);
-  };
-  return {.from = resolved(LocusTier::from), .to = resolved(LocusTier::to), .at = resolved(LocusTier::at)};
-}
-
 LociOfSign wanted_loci(const SpaceChange& change, std::span<const LocusSetup> loci, std::size_t place,
                        const SignerBody& body) {
   const auto resolved = [&](const std::optional<LocusRef>& ref) -> std::optional<Locus> {
@@ -73,7 +62,12 @@ class Inflector {
  public:
   Inflector(std::span<const LocusSetup> loci, const Snapshot& snapshot, const std::shared_ptr<const SignerRig>& rig,
             const SpaceOptions& options, std::vector<Notice>& notices)
-      : loci_(loci), snapshot_(snapshot), rig_(rig), options_(options), notices_(notices) {}
+      : loci_(loci),
+        snapshot_(snapshot),
+        rig_(rig),
+        options_(options),
+        notices_(notices),
+        learned_(options.learned ? options.learned : std::make_shared<LearnedStrokes>()) {}
 
   void inflect(const ClipToInflect& one) {
     MotionClip& clip = *one.clip;
@@ -176,9 +170,28 @@ class Inflector {
       change.because = fmt::format("'{}' was captured within {:.0f}° of it", name_of(clip), std::max(1.0f, *off));
       return change;
     }
+    std::string why_not = "its loci are not annotated";
+    const bool is_verb = role != SpaceRole::aim && role != SpaceRole::none && (asked.from || asked.to);
+    if (is_verb && !clip.signs.empty() && !clip.mirrored) {
+      const auto learned = learned_->of(snapshot_, clip.signs.front().gloss, role);
+      why_not = learned->why_not;
+      if (learned->stroke) {
+        const Prediction prediction = learned->stroke->predict(wanted);
+        why_not = prediction.why_outside;
+        if (prediction.inside) {
+          ClipChange change =
+              change_of(change_to(changer, stroke, phase_points(changer, *clip.source, stroke), prediction.points),
+                        asked, ChangeBasis::learned);
+          change.because = why_learned(*learned->stroke, prediction);
+          change.missed_mm = prediction.error_mm;
+          return change;
+        }
+      }
+    }
     const Aimed aimed = aim_stroke(changer, stroke, role, wanted, captured);
     ClipChange change = change_of(aimed.fitted, asked, ChangeBasis::geometric);
-    change.because = fmt::format("from one token of '{}'", name_of(clip));
+    change.because = role == SpaceRole::aim ? fmt::format("'{}' points at it", name_of(clip))
+                                            : why_geometric(fmt::format("'{}'", name_of(clip)), why_not);
     change.missed_mm = 1000 * std::max(aimed.begin_missed, aimed.end_missed);
     change.aim_degrees = aimed.aim_error;
     return change;
@@ -217,6 +230,7 @@ class Inflector {
   const std::shared_ptr<const SignerRig>& rig_;
   const SpaceOptions& options_;
   std::vector<Notice>& notices_;
+  std::shared_ptr<LearnedStrokes> learned_;
 };
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "signweave/choose/candidate.h"
+#include "signweave/choose/learned_strokes.h"
 #include "signweave/core/error.h"
 #include "signweave/database/database.h"
 #include "signweave/notation/utterance.h"
@@ -16,7 +17,8 @@
 namespace signweave {
 
 struct SpaceOptions {
-  SpaceRoles roles;  ///< that of another gloss is guessed from its token
+  SpaceRoles roles;                         ///< that of another gloss is guessed from its token
+  std::shared_ptr<LearnedStrokes> learned;  ///< shared by what signs the same database; null: learned for each call
 };
 
 /// True if a place asks for a change.

@@ -13,8 +13,9 @@
 namespace signweave {
 namespace {
 
-/// Beyond this azimuth the eyes and the head do not follow. Degrees. (ours)
+/// The eyes and the head turn at most so far to a side, and follow no locus beyond the second azimuth. Degrees. (ours)
 constexpr float kMostGaze = 100;
+constexpr float kMostLookedAt = 125;
 
 bool is_direction(std::string_view name) {
   return std::ranges::any_of(named_gazes(), [&](const NamedGaze& one) { return one.name == name; });
@@ -64,12 +65,12 @@ GazeDirection direction_of_gaze(std::string_view what) {
   const auto& [a, b, c] = ref.numbers;
   const Eigen::Vector3f at = ref.kind == LocusRef::Kind::point ? Eigen::Vector3f(a, b, c) : point_of({a, b, c});
   const SpaceAngles angles = angles_of(at - Eigen::Vector3f(0, kEyesUp, kEyesForward));
-  if (std::abs(angles.azimuth) > kMostGaze) {
+  if (std::abs(angles.azimuth) > kMostLookedAt) {
     throw Error(ErrorCode::bad_input, fmt::format("a gaze at '@{}' would go behind the signer; give an azimuth within "
                                                   "{:.0f}° to either side",
                                                   what, kMostGaze));
   }
-  return {.yaw = angles.azimuth, .pitch = angles.elevation};
+  return {.yaw = std::clamp(angles.azimuth, -kMostGaze, kMostGaze), .pitch = angles.elevation};
 }
 
 }  // namespace signweave

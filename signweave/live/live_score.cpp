@@ -17,7 +17,9 @@ constexpr std::int64_t kChunk = 64;
 }  // namespace
 
 LiveScore::LiveScore(SharedSigningCache& cache, const PlayerOptions& options)
-    : cache_(cache), options_(options), open_(cache.database()), queue_(cache, open_, options_) {}
+    : cache_(cache), options_(options), open_(cache.database()), queue_(cache, open_, options_) {
+  options_.synthesis.space.learned = cache.learned_strokes();
+}
 
 std::int64_t LiveScore::history() const noexcept {
   return setup_ ? context_frames(setup_->header.rate) : 1;

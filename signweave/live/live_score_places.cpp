@@ -198,13 +198,13 @@ void LiveScore::change_in_space(MotionClip& clip, std::size_t place, std::size_t
   if (options_.synthesis.strict) refuse(notices);
   for (const Notice& notice : notices) {
     const std::size_t number = place + queue_.forgotten();
-    if (!told_.of_places.insert({number, notice.code, notice.text}).second) continue;
-    tell({.kind = PlayerEvent::Kind::notice,
-          .frame = static_cast<std::uint64_t>(end()),
-          .place = number,
-          .recording = notice.where,
-          .text = notice.text,
-          .code = notice.code});
+    if (!reports_.of_places.insert({number, notice.code, notice.text}).second) continue;
+    add_event({.kind = PlayerEvent::Kind::notice,
+               .frame = static_cast<std::uint64_t>(end()),
+               .place = number,
+               .recording = notice.where,
+               .text = notice.text,
+               .code = notice.code});
   }
 }
 

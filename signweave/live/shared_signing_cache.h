@@ -16,6 +16,7 @@
 #include "signweave/choose/captured_spans.h"
 #include "signweave/choose/concatenate.h"
 #include "signweave/choose/durations.h"
+#include "signweave/choose/learned_strokes.h"
 #include "signweave/database/database.h"
 #include "signweave/live/made_cache.h"
 #include "signweave/live/made_step.h"
@@ -80,6 +81,8 @@ class SharedSigningCache {
   TransitionCache& transitions() noexcept { return transitions_; }
   /// The cached steps of streams whose channels differ.
   StepCache& steps() noexcept { return steps_; }
+  /// What is learned about strokes in space.
+  const std::shared_ptr<LearnedStrokes>& learned_strokes() const noexcept { return learned_strokes_; }
 
  private:
   struct Known {
@@ -104,6 +107,7 @@ class SharedSigningCache {
   Known known_;
   TransitionCache transitions_;
   StepCache steps_;
+  const std::shared_ptr<LearnedStrokes> learned_strokes_ = std::make_shared<LearnedStrokes>();
   std::atomic<std::uint64_t> seeds_ = 0;
 };
 

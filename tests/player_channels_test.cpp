@@ -144,8 +144,10 @@ TEST(PlayerChannelsToTheEnd, HoldAHandThatWouldHaveBeenLowered) {
   UtteranceWords words;
   words.follows = true;
   stream.player().sign(parse_utterance("VANNES#1{weak hold ..} MATIN#1"));
-  do stream.take(4);
-  while (stream.player().frame() < 600 && glosses_of(stream.player(), Channel::left).back() != "-");
+  do {
+    stream.player().prepare(64);
+    stream.take(4);
+  } while (stream.player().frame() < 600 && glosses_of(stream.player(), Channel::left).back() != "-");
   ASSERT_LT(stream.player().frame(), 600u);  // the end is prepared, but MATIN is still shown
   stream.player().append(parse_utterance("[RENNES#1 | weak: hold]", words));
   show_all(stream);

@@ -20,6 +20,8 @@ using Eigen::Vector3f;
 /// Loci nearer than this are one: a token there is what the ladder would take. (design)
 constexpr float kSameLocus = 10;
 constexpr std::size_t kTokenFolds = 10;
+/// Hands that keep to each other do not change sides: between their palms less changes than this. Metres. (ours)
+constexpr float kCrossed = 0.12f;
 
 float degrees_between(const std::optional<Locus>& a, const std::optional<Locus>& b) {
   if (!a && !b) return 0;
@@ -79,7 +81,9 @@ struct Actor {
       least = std::min(least, apart);
       most = std::max(most, apart);
     }
-    return most - least > kSamePlace;
+    const Vector3f across = stroke.first(Side::left).palm - stroke.first(Side::right).palm;
+    const Vector3f across_after = stroke.last(Side::left).palm - stroke.last(Side::right).palm;
+    return most - least > kSamePlace || (across_after - across).norm() > kCrossed;
   }
   float unit() const { return stage->changer.body().shoulder_width; }
 };

@@ -28,7 +28,7 @@ EvaluatedMotion signing(const std::vector<float>& azimuths, bool annotated) {
   std::vector<LociOfSign> loci;
   for (std::size_t i = 0; i < azimuths.size(); ++i) {
     const float aside = 0.004f * static_cast<float>(i % 2);
-    const Vector3f end = Vector3f(-0.12f + aside, 1.28f, 0) +
+    const Vector3f end = Vector3f(-0.12f, 1.28f, 0) +
                          0.34f * Vector3f(0.6f * std::sin(azimuths[i] / 57.3f), 0, std::cos(azimuths[i] / 80));
     const Motion token = person.stroke(
         [&](Side side, float t) -> Vector3f {

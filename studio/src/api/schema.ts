@@ -305,12 +305,49 @@ export interface components {
       readonly count: number
       readonly interval_ms: components['schemas']['Distribution']
     }
+    readonly PlaceStatistics: {
+      /** @description 0 is straight ahead, positive to the signer's left */
+      readonly azimuth_deg: components['schemas']['Distribution']
+      readonly elevation_deg: components['schemas']['Distribution']
+      /** @description shoulder widths */
+      readonly distance_sw: components['schemas']['Distribution']
+      /** @description the built-in locus nearest to the medians */
+      readonly nearest: string
+      /** @description number of places more than 15 cm apart */
+      readonly places: number
+      /** @description root mean square distance from the mean */
+      readonly spread_m: number
+    }
+    readonly PlacedToken: {
+      readonly recording: string
+      readonly begin_ms: number
+      readonly end_ms: number
+      readonly hand: string
+      /** @description to the signer's left, up, forward; shoulder widths */
+      readonly begin: readonly number[]
+      readonly end: readonly number[]
+    }
+    readonly GlossLoci: {
+      readonly gloss: string
+      readonly hand: string
+      /** @description away from the signer, toward it, or neither */
+      readonly heading: string
+      /** @description the greater one of begin and end */
+      readonly spread_m: number
+      /** @description of the strokes */
+      readonly begin: components['schemas']['PlaceStatistics']
+      /** @description of the strokes */
+      readonly end: components['schemas']['PlaceStatistics']
+      readonly tokens: readonly components['schemas']['PlacedToken'][]
+    }
     readonly Statistics: {
       readonly all: components['schemas']['TransitionSummary']
       readonly recordings: readonly components['schemas']['RecordingStatistics'][]
       readonly pairs?: readonly components['schemas']['PairStatistics'][]
       readonly glosses?: readonly components['schemas']['GlossStatistics'][]
       readonly ngrams?: readonly components['schemas']['NgramStatistics'][]
+      /** @description by descending spread */
+      readonly loci?: readonly components['schemas']['GlossLoci'][]
     }
     readonly ProposedPhase: {
       readonly phase: string
@@ -402,6 +439,49 @@ export interface components {
       readonly moving_hand: 'left' | 'right'
       readonly speed_peaks: number
     }
+    readonly AimRow: {
+      /** @enum {string} */
+      readonly method: 'seen' | 'learned' | 'cubic' | 'nearest' | 'citation' | 'ends' | 'floor'
+      /** @description the learned model vouches for these loci */
+      readonly near: boolean
+      /** @description how many it is from */
+      readonly predictions: number
+      /** @description of these, how many the arms cannot make wholly */
+      readonly unreached: number
+      /** @description between the palms at the stroke's end */
+      readonly end_mm: number
+      /** @description between the palms over the stroke */
+      readonly path_mm: number
+      /** @description over that of repetitions; null: there are none */
+      readonly path_over_floor: number | null
+      /** @description over how far repetitions are from their mean */
+      readonly path_over_noise: number | null
+      /** @description between the directions of the movements; of a pointing sign, between finger and locus */
+      readonly aim_degrees: number
+      /** @description between the orientations of the hands */
+      readonly turn_degrees: number
+      /** @description between the paths after the best shift, turn and scale */
+      readonly shape_mm: number
+      /** @description the path error that the model expects */
+      readonly expected_mm: number | null
+    }
+    readonly AimGloss: {
+      readonly gloss: string
+      /**
+       * @description as guessed
+       * @enum {string}
+       */
+      readonly role: 'none' | 'forward' | 'backward' | 'aim' | 'both'
+      readonly tokens: number
+      readonly with_loci: number
+      readonly why_not_learned?: string
+      readonly rows: readonly components['schemas']['AimRow'][]
+    }
+    readonly AimEvaluation: {
+      readonly all: readonly components['schemas']['AimRow'][]
+      readonly glosses: readonly components['schemas']['AimGloss'][]
+      readonly tokens_left_out: number
+    }
     readonly Evaluation: {
       readonly recordings: number
       readonly recordings_left_out: number
@@ -409,7 +489,7 @@ export interface components {
        * @description nothing is learned from the one that is judged
        * @enum {string}
        */
-      readonly left_out_by: 'collection' | 'signer' | 'recording'
+      readonly left_out_by: 'collection' | 'signer' | 'recording' | 'locus'
       /** @description the other methods against kriging, by the wrist's error */
       readonly judged: readonly components['schemas']['JudgedMethod'][]
       readonly spans_left_out: number
@@ -417,6 +497,8 @@ export interface components {
       readonly confidence: number
       readonly tasks: readonly components['schemas']['EvaluationTask'][]
       readonly spans: readonly components['schemas']['EvaluatedSpan'][]
+      /** @description of the task aim, which has no tasks and spans */
+      readonly aim?: components['schemas']['AimEvaluation']
       /** @description the summary with intervals, an SVG document */
       readonly plot: string
       /** @description what the recordings declare of themselves: show it together with the answer */
@@ -1355,6 +1437,9 @@ export type RecordingStatistics = components['schemas']['RecordingStatistics']
 export type PairStatistics = components['schemas']['PairStatistics']
 export type GlossStatistics = components['schemas']['GlossStatistics']
 export type NgramStatistics = components['schemas']['NgramStatistics']
+export type PlaceStatistics = components['schemas']['PlaceStatistics']
+export type PlacedToken = components['schemas']['PlacedToken']
+export type GlossLoci = components['schemas']['GlossLoci']
 export type Statistics = components['schemas']['Statistics']
 export type ProposedPhase = components['schemas']['ProposedPhase']
 export type Proposals = components['schemas']['Proposals']
@@ -1365,6 +1450,9 @@ export type MeasureEstimate = components['schemas']['MeasureEstimate']
 export type EvaluationGroup = components['schemas']['EvaluationGroup']
 export type EvaluationTask = components['schemas']['EvaluationTask']
 export type EvaluatedSpan = components['schemas']['EvaluatedSpan']
+export type AimRow = components['schemas']['AimRow']
+export type AimGloss = components['schemas']['AimGloss']
+export type AimEvaluation = components['schemas']['AimEvaluation']
 export type Evaluation = components['schemas']['Evaluation']
 export type Span = components['schemas']['Span']
 export type ReportPhase = components['schemas']['ReportPhase']

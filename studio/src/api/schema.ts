@@ -305,12 +305,49 @@ export interface components {
       readonly count: number
       readonly interval_ms: components['schemas']['Distribution']
     }
+    readonly PlaceStatistics: {
+      /** @description 0 is straight ahead, positive to the signer's left */
+      readonly azimuth_deg: components['schemas']['Distribution']
+      readonly elevation_deg: components['schemas']['Distribution']
+      /** @description shoulder widths */
+      readonly distance_sw: components['schemas']['Distribution']
+      /** @description the built-in locus nearest to the medians */
+      readonly nearest: string
+      /** @description number of places more than 15 cm apart */
+      readonly places: number
+      /** @description root mean square distance from the mean */
+      readonly spread_m: number
+    }
+    readonly PlacedToken: {
+      readonly recording: string
+      readonly begin_ms: number
+      readonly end_ms: number
+      readonly hand: string
+      /** @description to the signer's left, up, forward; shoulder widths */
+      readonly begin: readonly number[]
+      readonly end: readonly number[]
+    }
+    readonly GlossLoci: {
+      readonly gloss: string
+      readonly hand: string
+      /** @description away from the signer, toward it, or neither */
+      readonly heading: string
+      /** @description the greater one of begin and end */
+      readonly spread_m: number
+      /** @description of the strokes */
+      readonly begin: components['schemas']['PlaceStatistics']
+      /** @description of the strokes */
+      readonly end: components['schemas']['PlaceStatistics']
+      readonly tokens: readonly components['schemas']['PlacedToken'][]
+    }
     readonly Statistics: {
       readonly all: components['schemas']['TransitionSummary']
       readonly recordings: readonly components['schemas']['RecordingStatistics'][]
       readonly pairs?: readonly components['schemas']['PairStatistics'][]
       readonly glosses?: readonly components['schemas']['GlossStatistics'][]
       readonly ngrams?: readonly components['schemas']['NgramStatistics'][]
+      /** @description by descending spread */
+      readonly loci?: readonly components['schemas']['GlossLoci'][]
     }
     readonly ProposedPhase: {
       readonly phase: string
@@ -1227,6 +1264,9 @@ export type RecordingStatistics = components['schemas']['RecordingStatistics']
 export type PairStatistics = components['schemas']['PairStatistics']
 export type GlossStatistics = components['schemas']['GlossStatistics']
 export type NgramStatistics = components['schemas']['NgramStatistics']
+export type PlaceStatistics = components['schemas']['PlaceStatistics']
+export type PlacedToken = components['schemas']['PlacedToken']
+export type GlossLoci = components['schemas']['GlossLoci']
 export type Statistics = components['schemas']['Statistics']
 export type ProposedPhase = components['schemas']['ProposedPhase']
 export type Proposals = components['schemas']['Proposals']

@@ -85,7 +85,7 @@ PlaceStats stats_of(std::span<const PalmPlace> places, const SignerBody& body) {
   return stats;
 }
 
-/// The hand that goes the longer way in most tokens; of equally many, the right one.
+/// The hand with the longer path in most tokens; of equally many, the right one.
 Side hand_that_goes(std::span<const PlacedToken* const> tokens) {
   std::array<std::size_t, 2> longer{};
   const auto path = [](const std::optional<PalmStroke>& palm) { return palm ? palm->path : -1.0f; };

@@ -73,7 +73,7 @@ struct GlossLoci {
 };
 
 /// The glosses by descending spread, then by name, compared in match form. A token counts with its annotated hand; one
-/// of both hands with that which goes the longer way in most tokens of the gloss. Of a gloss that has tokens with
+/// of both hands with that of the longer path in most tokens of the gloss. Of a gloss that has tokens with
 /// annotated phases only these count. `body` places the built-in loci.
 std::vector<GlossLoci> gloss_loci(std::span<const PlacedToken> tokens, const SignerBody& body);
 

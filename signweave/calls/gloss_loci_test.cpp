@@ -70,7 +70,7 @@ TEST(GlossLoci, CountsThePlacesThatAreFartherApartThanFifteenCentimetres) {
   EXPECT_EQ(places({-40, -38, 0, 1, 41, 42}), 3U);
 }
 
-TEST(GlossLoci, TellsWhetherASignGoesAwayOrTowardTheSigner) {
+TEST(GlossLoci, GuessesWhetherASignGoesAwayOrTowardTheSigner) {
   EXPECT_EQ(only({token("A", at(30, 0, 1.2f), at(0, 0, 0.5f))}).heading, Heading::toward);
   EXPECT_EQ(only({token("A", at(-45), at(45))}).heading, Heading::neither);
   EXPECT_EQ(only({token("A", at(0, 0, 1), at(0, 80, 1.1f))}).heading, Heading::toward) << "upwards is not outwards";

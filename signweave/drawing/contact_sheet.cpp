@@ -226,8 +226,8 @@ void draw_head_from_above(const FigurePlan& plan, const ModelPose& pose, float u
   const Vector3f left = pose.rotations[joint] * plan.head->left;
   const Vector3f ahead = Vector3f(left.y(), -left.x(), 0).normalized();
   const Vector3f middle = pose.positions[joint] + 0.06f * unit * ahead;
-  put_ellipse(view, middle + 0.27f * unit * ahead, left, 0.05f * unit, 0.06f * unit, "#e2c4ac", out);
-  put_ellipse(view, middle, left, 0.22f * unit, 0.27f * unit, "#5e493a", out);
+  put_ellipse(view, middle + 0.3f * unit * ahead, left, 0.05f * unit, 0.06f * unit, "#e2c4ac", out);
+  put_ellipse(view, middle, left, 0.26f * unit, 0.3f * unit, "#5e493a", out);
 }
 
 /// Gives a figure room for the loci that are within reach.

@@ -34,7 +34,7 @@ TEST(Aim, AVerbEndsAtTheAzimuthOfItsObject) {
   }
 }
 
-TEST(Aim, ABackwardVerbGoesTheOtherWay) {
+TEST(Aim, ABackwardVerbGoesInTheOtherDirection) {
   Stroke stroke(right_alone([](float t) { return outward(1 - t); }));
   EXPECT_EQ(guessed_role(stroke.captured, stroke.changer), SpaceRole::backward);
   const Aimed aimed = aim_stroke(stroke.changer, stroke.captured, SpaceRole::backward,

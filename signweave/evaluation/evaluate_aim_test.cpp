@@ -105,7 +105,7 @@ TEST(EvaluateAim, TokensThatCannotBeComparedAreCounted) {
   EXPECT_EQ(made.tokens.size(), 8u);
 }
 
-TEST(RoleOfStrokes, IsToldByWhichLocusAnEndIsNearer) {
+TEST(RoleOfStrokes, FollowsFromTheLociThatTheEndsAreNear) {
   const Vector3f chest(0, -0.4f, 0.7f);
   const Vector3f left = at(45).at;
   const LociOfSign loci{.from = self(), .to = at(45)};

@@ -29,7 +29,7 @@ struct EvaluatedMotion {
   CaptureNoise noise;  ///< of the motion that these frames are taken from
   SignerModel signer;
   JointGroups groups;
-  std::vector<Sign> signs;  ///< empty: not annotated
+  std::vector<Sign> signs;            ///< empty: not annotated
   std::vector<LociOfSign> loci = {};  ///< [sign]; empty: not annotated
   FrameClock clock;
   HandTracks tracks;           ///< over the whole motion

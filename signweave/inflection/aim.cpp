@@ -31,7 +31,7 @@ constexpr float kBeforeChest = 0.35f;
 /// A stroke's end counts as outward if it is this much farther from the body than its begin. Metres. (ours)
 constexpr float kOutward = 0.08f;
 /// An index finger that is farther from the direction to the locus does not point at it. Degrees. (ours)
-constexpr float kPointsBeside = 35;
+constexpr float kPointsElsewhere = 35;
 
 Quaternionf yaw_of(float radians) {
   return Quaternionf(Eigen::AngleAxisf(radians, Vector3f::UnitY()));
@@ -282,7 +282,7 @@ bool points(const CapturedStroke& stroke, const std::optional<Locus>& captured, 
   if (!captured || captured->self) return true;
   const HandInSpace& hand = stroke.last(stroke.dominant);
   const Vector3f line = pointed_place(*captured, unit) - hand.index_base;
-  return pointing_of(hand).dot(line.normalized()) > std::cos(kPointsBeside * kDegree);
+  return pointing_of(hand).dot(line.normalized()) > std::cos(kPointsElsewhere * kDegree);
 }
 
 Aimed point(StrokeChanger& changer, const CapturedStroke& stroke, const Locus& target,

@@ -55,8 +55,8 @@ float rising(float value, float middle, float width) {
 
 /// Keeps a palm in front of the body, smoothly; beside it, on the hand's own side, the palm may be farther back by that
 /// share of the distance.
-Vector3f in_front(Vector3f place, float back_beside = 0.45f) {
-  const float nearest = kNearest * (1 - back_beside * rising(-place.x(), 0.30f, 0.04f));
+Vector3f in_front(Vector3f place, float back_next_to = 0.45f) {
+  const float nearest = kNearest * (1 - back_next_to * rising(-place.x(), 0.30f, 0.04f));
   place.z() = nearest + kSoft * std::log1p(std::exp((place.z() - nearest) / kSoft));
   return place;
 }

@@ -96,7 +96,9 @@ Side hand_that_goes(std::span<const PlacedToken* const> tokens) {
 Heading heading_of(std::span<const PalmPlace> begins, std::span<const PalmPlace> ends) {
   std::vector<double> outward;
   for (std::size_t i = 0; i < begins.size(); ++i) {
-    const auto level = [](const PalmPlace& place) { return std::hypot(place.at.x(), place.at.z()) * place.shoulder_width; };
+    const auto level = [](const PalmPlace& place) {
+      return std::hypot(place.at.x(), place.at.z()) * place.shoulder_width;
+    };
     outward.push_back(static_cast<double>(level(ends[i]) - level(begins[i])));
   }
   const double median = distribution_of(outward).median();

@@ -9,8 +9,8 @@
 namespace signweave {
 
 /// The newest version of the JSON format. Older versions can be read, and a score is written in the oldest one that can
-/// hold it: version 2 added holds, clips of single channels, and the lanes of fingers and head, version 3 clips that are
-/// changed in space.
+/// hold it: version 2 added holds, clips of single channels, and the lanes of fingers and head, version 3 clips that
+/// are changed in space.
 inline constexpr int kScoreVersion = 3;
 int version_of(const Score& score) noexcept;
 

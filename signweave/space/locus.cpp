@@ -15,8 +15,8 @@ namespace {
 
 constexpr float kDegree = std::numbers::pi_v<float> / 180;
 constexpr std::array<std::string_view, 5> kBuiltIn = {"left", "right", "front", "addressee", "self"};
-constexpr float kAside = 45;             // degrees
-constexpr float kAddresseeDistance = 5;  // shoulder widths
+constexpr float kAside = 45;                                                       // degrees
+constexpr SpaceAngles kAddressee = {.azimuth = 0, .elevation = 5, .distance = 3};  // shoulder widths
 constexpr std::string_view kForms =
     "give a name such as @left, angles such as @30 or @30/10/1.2 (azimuth, elevation, distance), or a point such as "
     "@0.3,0.1,0.8 (left, up, forward in shoulder widths)";
@@ -144,7 +144,7 @@ Locus resolve(const LocusRef& locus, std::span<const LocusSetup> setups, std::si
     const float shoulder = body.heights[static_cast<std::size_t>(Height::shoulder)];
     return {.at = {0, (chest + shoulder) / 2, kChestDepth}, .self = true};
   }
-  if (known.name == "addressee") return {.at = point_of({0, 0, kAddresseeDistance}), .self = false};
+  if (known.name == "addressee") return {.at = point_of(kAddressee), .self = false};
   const float aside = known.name == "left" ? kAside : known.name == "right" ? -kAside : 0;
   return {.at = point_of({aside, 0, kLocusDistance}), .self = false};
 }

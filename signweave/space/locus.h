@@ -79,8 +79,8 @@ struct Locus {
 LocusRef without_setups(const LocusRef& locus, std::span<const LocusSetup> setups, std::size_t place);
 
 /// The locus of a place of an utterance: what its name was set up as by then. `left` and `right` are 45° aside and
-/// `front` is straight ahead, kLocusDistance away at the height of the shoulders; `addressee` is straight ahead, 5
-/// shoulder widths away; `self` is on the chest. Throws Error{not_found, "there is no locus 'b'; …"}.
+/// `front` is straight ahead, kLocusDistance away at the height of the shoulders; `addressee` is straight ahead, 5°
+/// up and 3 shoulder widths away; `self` is on the chest. Throws Error{not_found, "there is no locus 'b'; …"}.
 Locus resolve(const LocusRef& locus, std::span<const LocusSetup> setups, std::size_t place, const SignerBody& body);
 
 }  // namespace signweave

@@ -245,7 +245,7 @@ TEST(Api, CountsChecksAndEvaluates) {
   EXPECT_EQ(json_in(reading().get(at({"check"}))), (json{{"recordings", 2}, {"faults", json::array()}}));
   EXPECT_THAT(reading().get(at({"stats"}), {{"format", "svg"}}).body, HasSubstr("<svg"));
   EXPECT_THAT(fault_of(reading().get(at({"stats"}), {{"format", "csv"}, {"pairs", ""}, {"glosses", "true"}})),
-              HasSubstr("give one of pairs, glosses and ngrams"));
+              HasSubstr("give one of pairs, glosses, ngrams and loci"));
   EXPECT_THAT(fault_of(reading().get(at({"stats"}), {{"recording", "x"}})), StartsWith("404"));
   EXPECT_THAT(fault_of(reading().send("POST", at({"evaluate"}), {{"method", {"gap", "slrp"}}})),
               HasSubstr("no method"));

@@ -543,7 +543,7 @@ export interface components {
       /** @description as in an utterance: to @left */
       readonly asked: string
       /**
-       * @description where it comes from: numbers that were asked for, a token that was captured so, what was learned from the tokens of the gloss, or the geometry of one token
+       * @description asked: given by numbers; captured: a token's own; learned: from the gloss' tokens; geometric: from one token
        * @enum {string}
        */
       readonly basis: 'asked' | 'captured' | 'learned' | 'geometric'
@@ -784,7 +784,7 @@ export interface components {
       /** @description as in an utterance: to @left */
       readonly asked: string
       /**
-       * @description where it comes from: numbers that were asked for, a token that was captured so, what was learned from the tokens of the gloss, or the geometry of one token
+       * @description asked: given by numbers; captured: a token's own; learned: from the gloss' tokens; geometric: from one token
        * @enum {string}
        */
       readonly basis: 'asked' | 'captured' | 'learned' | 'geometric'

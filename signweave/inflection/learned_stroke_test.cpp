@@ -83,7 +83,7 @@ TEST(LearnedStroke, PredictsALocusBetweenThoseSeenBetterThanItsNoise) {
     EXPECT_TRUE(made.inside) << azimuth << made.why_outside;
     EXPECT_LT(path_error(made.points, stroke_to(at(azimuth))), 0.017) << azimuth;
     const PhasePoint& last = made.points.hands[kRight].back();
-    const PhasePoint& truth = stroke_to(at(azimuth)).hands[kRight].back();
+    const PhasePoint truth = stroke_to(at(azimuth)).hands[kRight].back();
     EXPECT_LT(vector_of(last.turn * truth.turn.conjugate()).norm(), 3 * kDegree) << azimuth;
     EXPECT_LT(std::abs(inflection::wrapped(last.swivel - truth.swivel)), 3 * kDegree) << azimuth;
     EXPECT_FALSE(made.points.used[0]);

@@ -19,6 +19,8 @@ constexpr std::int64_t kChunk = 64;
 LiveScore::LiveScore(SharedSigningCache& cache, const PlayerOptions& options)
     : cache_(cache), options_(options), open_(cache.database()), queue_(cache, open_, options_) {
   options_.synthesis.space.learned = cache.learned_strokes();
+  // What is planned needs the whole utterance; the living rest blinks.
+  options_.synthesis.non_manuals.gaze = options_.synthesis.non_manuals.blinks = false;
 }
 
 std::int64_t LiveScore::history() const noexcept {

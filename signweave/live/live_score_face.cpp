@@ -28,8 +28,6 @@ bool has_any(const std::vector<std::string>& all, const std::vector<std::string>
 void LiveScore::author(std::size_t first, std::int64_t from) {
   if (round_.entries.empty()) return;
   const std::vector<NonManual>& all = queue_.non_manuals();
-  NonManualOptions options = options_.synthesis.non_manuals;
-  options.gaze = options.blinks = false;  // what is planned needs the whole utterance; the living rest blinks
   const std::int64_t shift = round_.entries.back().clip->placed.core - round_.entries.back().core;
   Score times;  // in the utterance's time
   for (std::size_t i = queue_.first_over(first); i < all.size() && all[i].first < queue_.next(); ++i) {
@@ -42,8 +40,8 @@ void LiveScore::author(std::size_t first, std::int64_t from) {
     one.first += queue_.forgotten();
     one.last += queue_.forgotten();
     std::vector<Notice> notices;
-    for (AuthoredCurve& curve :
-         author_non_manuals({.places = {}, .holds = {}, .non_manuals = {one}}, times, options, notices)) {
+    for (AuthoredCurve& curve : author_non_manuals({.places = {}, .holds = {}, .non_manuals = {one}}, times,
+                                                   options_.synthesis.non_manuals, notices)) {
       if (known != round_.authored.end()) {  // it goes on: what was shown of it stays
         known->second.curve.at.end = std::max(curve.at.end, from - shift + 1);
         known->second.curve.last = curve.last;

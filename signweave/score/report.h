@@ -69,8 +69,9 @@ template <class Visit>
 void change_fields(Visit& visit, const ClipChange& change) {
   visit(AnswerField{.name = "asked", .help = "as in an utterance: to @left"}, change.asked);
   visit(AnswerField{.name = "basis",
-                    .help = "asked: given by numbers; captured: a token's own; learned: from the gloss' tokens; geometric: "
-                            "from one token",
+                    .help =
+                        "asked: given by numbers; captured: a token's own; learned: from the gloss' tokens; geometric: "
+                        "from one token",
                     .one_of = {"asked", "captured", "learned", "geometric"}},
         name_of(change.basis));
   visit(AnswerField{.name = "because"}, given_if(!change.because.empty(), std::string_view(change.because)));

@@ -41,7 +41,7 @@ struct Size {
   std::size_t looped_in_lanes = 8;  // places of one stream's utterance
   double settle = 2;
   double first_seconds = 5;
-  double until_again = 10;  // by then the longest of the utterances has begun again
+  double until_again = 25;  // by then the longest of the utterances has begun again
   double seconds = 15;
   int batch_rounds = 5;
   double batch_seconds = 1;

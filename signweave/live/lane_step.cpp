@@ -113,7 +113,7 @@ class StepWindow {
   }
 
   MadeStep made_of(const Score& score, std::int64_t begin, std::shared_ptr<const Motion> frames) const {
-    MadeStep made{.frames = std::move(frames), .clips = {}, .lanes = {}};
+    MadeStep made{.frames = std::move(frames), .refused = {}, .clips = {}, .lanes = {}};
     for (const Clip& clip : score.clips) {
       made.clips.push_back({.to_core = base_ + clip.at.begin - begin,
                             .step = clip.step,
@@ -283,7 +283,8 @@ std::size_t held_bytes(const MadeStep& made) noexcept {
   std::size_t text = 0;
   for (const auto& lane : made.lanes) links += lane.size();
   for (const Notice& notice : made.notices) text += sizeof(Notice) + notice.text.size();
-  return sizeof(MadeStep) + text + bytes_in(*made.frames) + made.clips.size() * sizeof(MadeStep::Placed) +
+  if (made.refused) text += std::string_view(made.refused->what()).size();
+  return sizeof(MadeStep) + text + (made.frames ? bytes_in(*made.frames) : 0) + made.clips.size() * sizeof(MadeStep::Placed) +
          links * sizeof(MadeStep::Link);
 }
 
@@ -299,12 +300,25 @@ LaneStep make_step(const ClipChain& chain, std::int64_t begin, const StepClips& 
   };
   const std::string key = window.key(begin, clips, setup);
   if (!key.empty()) {
-    if (const std::shared_ptr<const MadeStep> made = cache.find(key)) return with_clips(*made);
+    if (const std::shared_ptr<const MadeStep> made = cache.find(key)) {
+      if (made->refused) throw Error(*made->refused);
+      return with_clips(*made);
+    }
   }
   window.stand(*setup.builder);
-  const Score score = window.compose(
-      settings,
-      {.fit = setup.fit.get(), .tempo = tempo, .most_frames = std::numeric_limits<std::int64_t>::max(), .author = {}});
+  const Score score = [&] {
+    try {
+      return window.compose(settings, {.fit = setup.fit.get(),
+                                       .tempo = tempo,
+                                       .most_frames = std::numeric_limits<std::int64_t>::max(),
+                                       .author = {}});
+    } catch (const Error& error) {
+      if (!key.empty() && error.code() == ErrorCode::bad_input) {
+        cache.keep(key, std::make_shared<MadeStep>(MadeStep{.frames = {}, .refused = error, .clips = {}, .lanes = {}}));
+      }
+      throw;
+    }
+  }();
   const Clip& last = score.clips[window.body() - 1];
   const bool differ = std::ranges::any_of(score.lanes, [&](const Lane& lane) {
     const auto use = std::find_if(lane.items.rbegin(), lane.items.rend(),

@@ -226,7 +226,9 @@ void LiveScore::extended(LiveClip& clip) const {
   clip.placed.core = before.core;
   clip.placed.before = before.before;
   clip.placed.standing = before.standing;
-  clip.key.clear();  // its standing was measured from its beginning only
+  if (clip.key.empty()) return;
+  // Its standing was measured from its beginning only, so it is not the clip that is chosen with these ends.
+  clip.key += fmt::format(" on to {}-{}", clip.captured.core.end, clip.captured.whole.end);
 }
 
 /// Adds a notice among the events of its frame.

@@ -32,6 +32,7 @@ struct MadeStep {
     std::optional<HandPlace> place;
   };
   std::shared_ptr<const Motion> frames;
+  std::optional<Error> refused = {};  ///< these clips cannot be placed together; the rest is empty
   std::vector<Placed> clips;
   std::array<std::vector<Link>, kAllChannels.size()> lanes;
   std::vector<Notice> notices = {};  ///< of lint_channels

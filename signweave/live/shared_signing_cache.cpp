@@ -27,7 +27,7 @@ constexpr std::size_t kMostRests = 64;
 }  // namespace
 
 SharedSigningCache::SharedSigningCache(const Database& database, std::size_t cached_bytes)
-    : database_(database), transitions_(cached_bytes), steps_(2 * cached_bytes) {}
+    : database_(database), transitions_(cached_bytes), steps_(3 * cached_bytes) {}
 
 SharedSigningCache::Known& SharedSigningCache::of(const std::shared_ptr<const Contents>& contents) {
   if (known_.contents != contents) {

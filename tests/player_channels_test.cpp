@@ -1,4 +1,5 @@
 // Streams in which single channels show something else than the body: the frames shown are those of the score.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -252,6 +253,52 @@ TEST(PlayerChannelsAppended, RefuseMoreThanCanBeSignedAtOnce) {
   EXPECT_THROW(player.sign(parse_utterance("{no such face: VANNES}")), Error);
   EXPECT_THROW(player.sign(parse_utterance("[VANNES | weak: NO-SUCH-GLOSS]")), Error);
   EXPECT_TRUE(player.idle());
+}
+
+/// What is composed in the rounds of a loop, when earlier ones have been shown.
+TEST(PlayerChannelsLooped, ComposeNothingAgain) {
+  const std::vector<std::string> glosses = corpus().contents()->segments.glosses();
+  std::mt19937 random(1);
+  const auto one = [&] { return to_string(GlossRef{glosses[random() % glosses.size()], 0}); };
+  for (int utterance = 0; utterance < 5; ++utterance) {
+    std::string text;
+    for (int i = 0; i < 3; ++i)
+      text += fmt::format("{}{{weak: {}; fingers: {}; head: {}}} ", one(), one(), one(), one());
+    SCOPED_TRACE(text);
+    SharedSigningCache cache(shared_cache().database());
+    Player player(cache, {.loop = true});
+    player.sign(parse_utterance(text));
+    std::vector<std::string> refused;
+    const auto show_rounds = [&](std::size_t count) {
+      std::size_t rounds = 0;
+      Motion room;
+      std::vector<float> tracks;
+      for (int i = 0; i < 10'000 && rounds < count; ++i) {
+        try {
+          player.prepare(32);
+        } catch (const Error& error) {
+          refused.emplace_back(error.what());
+          continue;
+        }
+        const StreamHeader& header = *player.header();
+        if (room.frame_count() == 0) room = Motion(header.skeleton, header.rate, 1);
+        tracks.resize(header.tracks.size());
+        for (int k = 0; k < 32; ++k) player.next({room.pose(0), tracks});
+        while (const std::optional<PlayerEvent> event = player.take_event()) {
+          if (event->kind == PlayerEvent::Kind::place && event->place == 0) ++rounds;
+        }
+      }
+      EXPECT_EQ(rounds, count);
+    };
+    show_rounds(4);  // the first two differ: the third begins as every later one
+    const StepCache::Counts before = cache.steps().counts();
+    show_rounds(2);
+    const StepCache::Counts after = cache.steps().counts();
+    EXPECT_EQ(after.missed, before.missed);
+    EXPECT_GE(after.found, before.found + 2);
+    if (refused.empty()) continue;
+    EXPECT_THAT(refused, testing::Each(testing::Eq(refused.front())));
+  }
 }
 
 TEST(PlayerChannelsAtRandom, ShowWhatTheirScoreRendersWhateverIsRequested) {

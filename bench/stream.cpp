@@ -41,7 +41,7 @@ struct Size {
   std::size_t looped_in_lanes = 8;  // places of one stream's utterance
   double settle = 2;
   double first_seconds = 5;
-  double until_again = 25;  // by then the longest of the utterances has begun again
+  double until_again = 10;  // by then the longest of the utterances has begun again
   double seconds = 15;
   int batch_rounds = 5;
   double batch_seconds = 1;
@@ -259,7 +259,8 @@ void paced_streams(const Server& server, Utterances& utterances, const std::file
 }
 
 /// Streams in which three channels differ from the body, against the same number of whole-body ones.
-void lanes(const Server& server, Utterances& utterances, const Size& size) {
+void lanes(const Server& server, Utterances& utterances, Size size) {
+  size.until_again *= 2;  // clips of other channels make a place longer
   const std::size_t count = size.in_lanes;
   const std::string name = fmt::format("stream/lanes:{}", count);
   const Looped whole = paced_by_server(

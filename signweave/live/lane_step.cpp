@@ -284,8 +284,8 @@ std::size_t held_bytes(const MadeStep& made) noexcept {
   for (const auto& lane : made.lanes) links += lane.size();
   for (const Notice& notice : made.notices) text += sizeof(Notice) + notice.text.size();
   if (made.refused) text += std::string_view(made.refused->what()).size();
-  return sizeof(MadeStep) + text + (made.frames ? bytes_in(*made.frames) : 0) + made.clips.size() * sizeof(MadeStep::Placed) +
-         links * sizeof(MadeStep::Link);
+  return sizeof(MadeStep) + text + (made.frames ? bytes_in(*made.frames) : 0) +
+         made.clips.size() * sizeof(MadeStep::Placed) + links * sizeof(MadeStep::Link);
 }
 
 LaneStep make_step(const ClipChain& chain, std::int64_t begin, const StepClips& clips, StreamSetup& setup, double tempo,

@@ -38,7 +38,8 @@ struct KnownRest {
 /// it. It must outlive its players, and the database must outlive it.
 class SharedSigningCache {
  public:
-  /// Caches transitions of up to `cached_bytes`, and steps of three times as much: streams hold those that they sign anyway.
+  /// Caches transitions of up to `cached_bytes`, and steps of three times as much: streams hold those that they sign
+  /// anyway.
   explicit SharedSigningCache(const Database& database, std::size_t cached_bytes = kCachedBytes);
   static constexpr std::size_t kCachedBytes = std::size_t{256} << 20;
 

@@ -227,7 +227,8 @@ void LiveScore::extended(LiveClip& clip) const {
   clip.placed.before = before.before;
   clip.placed.standing = before.standing;
   if (clip.key.empty()) return;
-  // Its standing was measured from its beginning only, so it is not the clip that is chosen with these ends.
+  // Its standing was measured from its first ends, so it is not the clip that is chosen with these ends.
+  clip.key.resize(std::min(clip.key.size(), clip.key.find(" on to ", clip.key.rfind(':'))));
   clip.key += fmt::format(" on to {}-{}", clip.captured.core.end, clip.captured.whole.end);
 }
 
